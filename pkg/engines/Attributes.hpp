@@ -1,0 +1,38 @@
+#pragma once
+
+/// Checks of attributes, with one form of message: Class.attribute = value [unit], allowed: what.
+/// Thrown from postLoad (a flag triggerPostLoad makes YADE call it at assignment) they arrive in Python as
+/// ValueError.
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace capfrac {
+
+template <class Value> [[noreturn]] void refuseAttribute(const std::string& name, const Value& value, const std::string& allowed)
+{
+	std::ostringstream text;
+	text.precision(10);
+	text << name << " = " << value << ", allowed: " << allowed;
+	throw std::invalid_argument(text.str());
+}
+
+// Comparisons are written so that NaN is refused.
+
+inline void requirePositive(const std::string& name, double value)
+{
+	if (!(value > 0) || value > 1e300) refuseAttribute(name, value, "finite and > 0");
+}
+
+inline void requireNotNegative(const std::string& name, double value)
+{
+	if (!(value >= 0) || value > 1e300) refuseAttribute(name, value, "finite and >= 0");
+}
+
+inline void requireFinite(const std::string& name, double value)
+{
+	if (!(value > -1e300 && value < 1e300)) refuseAttribute(name, value, "finite");
+}
+
+} // namespace capfrac

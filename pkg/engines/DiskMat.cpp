@@ -1,0 +1,23 @@
+#include "DiskMat.hpp"
+#include "Attributes.hpp"
+
+namespace yade {
+
+YADE_PLUGIN((DiskMat)(WallMat));
+
+void DiskMat::postLoad(DiskMat&)
+{
+	capfrac::requirePositive("DiskMat.normalStiffness [N/m]", normalStiffness);
+	capfrac::requireNotNegative("DiskMat.shearStiffness [N/m]", shearStiffness);
+	capfrac::requireNotNegative("DiskMat.tensileStrength [Pa]", tensileStrength);
+	capfrac::requireNotNegative("DiskMat.shearStrength [Pa]", shearStrength);
+	capfrac::requireNotNegative("DiskMat.capillaryStrength [N/m]", capillaryStrength);
+}
+
+void WallMat::postLoad(WallMat&)
+{
+	capfrac::requirePositive("WallMat.normalStiffness [N/m]", normalStiffness);
+	capfrac::requireNotNegative("WallMat.shearStiffness [N/m]", shearStiffness);
+}
+
+} // namespace yade

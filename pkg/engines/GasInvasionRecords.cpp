@@ -1,0 +1,220 @@
+/// What GasInvasionEngine measures and reports: bonds, displacements, rest, and its logs for Python.
+
+#include "GasInvasionEngine.hpp"
+#include "Walls.hpp"
+
+#include <core/Omega.hpp>
+#include <pkg/common/NormShearPhys.hpp>
+#include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
+
+#include <algorithm>
+
+namespace yade {
+
+namespace py = boost::python;
+
+namespace {
+
+	/// Contacts of grains with a normal force that counts against the mean [-]; the rest are grazing.
+	constexpr Real loadedShare = 1e-3;
+
+	Real normalForce(const Interaction& interaction)
+	{
+		const auto* phys = dynamic_cast<const NormShearPhys*>(interaction.phys.get());
+		return phys ? phys->normalForce.norm() : 0;
+	}
+
+} // namespace
+
+bool GasInvasionEngine::bondBroken(Body::id_t a, Body::id_t b) const
+{
+	bool bonded = false;
+	for (std::size_t k = 0; k + 1 < savedBonds.size() && !bonded; k += 2)
+		bonded = (savedBonds[k] == a && savedBonds[k + 1] == b) || (savedBonds[k] == b && savedBonds[k + 1] == a);
+	if (!bonded) return false;
+	const auto interaction = scene->interactions->find(a, b);
+	if (!interaction || !interaction->isReal()) return true;
+	const auto* phys = dynamic_cast<const CohFrictPhys*>(interaction->phys.get());
+	return !phys || phys->cohesionBroken;
+}
+
+int GasInvasionEngine::countBroken() const
+{
+	int n = 0;
+	for (std::size_t k = 0; k + 1 < savedBonds.size(); k += 2)
+		n += bondBroken(savedBonds[k], savedBonds[k + 1]);
+	return n;
+}
+
+Real GasInvasionEngine::gapGrowth(int e) const
+{
+	const auto& edge = mesh.edges[e];
+	return gaps[e] - capfrac::gap(mesh, edge.a, edge.b, startGrains, startBox);
+}
+
+void GasInvasionEngine::findRattlers()
+{
+	struct Contact {
+		int a, b;
+	};
+	Real sum = 0;
+	int  n   = 0;
+	for (const auto& interaction : *scene->interactions)
+		if (interaction->isReal()) sum += normalForce(*interaction), ++n;
+	std::vector<Contact> loaded;
+	for (const auto& interaction : *scene->interactions)
+		if (interaction->isReal() && normalForce(*interaction) > loadedShare * sum / n)
+			loaded.push_back({ reader.vertexOf(interaction->getId1()), reader.vertexOf(interaction->getId2()) });
+
+	// Taking a rattler away may leave its neighbour with one contact: repeat until nothing changes.
+	std::vector<char> bears(reader.grains.size() + capfrac::nWalls, 1);
+	for (bool changed = true; changed;) {
+		std::vector<int> nContacts(bears.size(), 0);
+		for (const auto& c : loaded)
+			if (bears[c.a] && bears[c.b]) ++nContacts[c.a], ++nContacts[c.b];
+		changed = false;
+		for (std::size_t i = 0; i < reader.grains.size(); ++i)
+			if (bears[i] && nContacts[i] < 2) bears[i] = 0, changed = true;
+	}
+	rattlers.clear();
+	for (std::size_t i = 0; i < reader.grains.size(); ++i)
+		if (!bears[i]) rattlers.push_back(reader.grainIds[i]);
+}
+
+Real GasInvasionEngine::unbalanced() const
+{
+	Real resultant = 0, contact = 0;
+	int  nContacts = 0;
+	for (auto id : reader.grainIds)
+		resultant += scene->forces.getForce(id).norm();
+	for (const auto& interaction : *scene->interactions)
+		if (interaction->isReal()) contact += normalForce(*interaction), ++nContacts;
+	if (nContacts == 0 || contact == 0) return resultant > 0 ? std::numeric_limits<Real>::infinity() : 0;
+	return (resultant / reader.grainIds.size()) / (contact / nContacts);
+}
+
+bool GasInvasionEngine::wallsAtRest() const
+{
+	const Real limit = restDisplacement * smallestRadius();
+	for (auto id : reader.wallIds)
+		if ((*scene->bodies)[id]->state->vel.norm() * scene->dt * minLevelSteps > limit) return false;
+	return true;
+}
+
+Real GasInvasionEngine::largestDisplacement(bool rattlersToo) const
+{
+	Real largest = 0;
+	for (std::size_t i = 0; i < reader.grains.size(); ++i) {
+		if (!rattlersToo && std::binary_search(rattlers.begin(), rattlers.end(), reader.grainIds[i])) continue;
+		largest = math::max(largest, capfrac::norm(reader.grains[i].centre - startGrains[i].centre) / reader.grains[i].radius);
+	}
+	return largest;
+}
+
+void GasInvasionEngine::preSave(GasInvasionEngine&)
+{
+	savedStart.clear();
+	if (!prepared()) return;
+	for (const auto& g : startGrains)
+		savedStart.insert(savedStart.end(), { g.centre.x, g.centre.y, g.radius });
+	savedStart.insert(savedStart.end(), { startBox.left, startBox.right, startBox.bottom, startBox.top });
+}
+
+void GasInvasionEngine::postLoad(GasInvasionEngine&)
+{
+	checkAttributes();
+	restore();
+	if (gasPressure < maxPressure) rampDone = false; // a ramp whose end was moved up goes on
+	if (savedStart.empty()) return;
+	startGrains.clear();
+	std::size_t k = 0;
+	for (; k + 4 < savedStart.size(); k += 3)
+		startGrains.push_back({ { savedStart[k], savedStart[k + 1] }, savedStart[k + 2] });
+	startBox = { savedStart[k], savedStart[k + 1], savedStart[k + 2], savedStart[k + 3] };
+	savedStart.clear();
+}
+
+py::dict GasInvasionEngine::pyEvents()
+{
+	py::list time, iteration, levels, pressure, throat, pore, x, y, entry, gap, growth, broken, opened, cells, volume;
+	for (std::size_t k = 0; k < eventBodies.size(); ++k) {
+		const auto& n = eventNumbers[k];
+		time.append(n[0]), pressure.append(n[1]), entry.append(n[2]), gap.append(n[3]), growth.append(n[4]), volume.append(n[5]);
+		iteration.append(eventCounts[k][0]), levels.append(eventCounts[k][1]), cells.append(eventCounts[k][2]);
+		throat.append(py::make_tuple(eventThroats[k][0], eventThroats[k][1]));
+		broken.append((eventThroats[k][2] & 1) != 0), opened.append((eventThroats[k][2] & 2) != 0);
+		pore.append(py::make_tuple(eventBodies[k][0], eventBodies[k][1], eventBodies[k][2]));
+		x.append(eventPlaces[k][0]), y.append(eventPlaces[k][1]);
+	}
+	py::dict d;
+	d["time"] = time, d["iteration"] = iteration, d["level"] = levels, d["gasPressure"] = pressure, d["throat"] = throat, d["pore"] = pore;
+	d["x"] = x, d["y"] = y, d["entryPressure"] = entry, d["gap"] = gap, d["gapGrowth"] = growth;
+	d["bondBroken"] = broken, d["opened"] = opened, d["cells"] = cells, d["volume"] = volume;
+	return d;
+}
+
+py::dict GasInvasionEngine::pyLevels()
+{
+	py::list pressure, gasSat, unbalancedForce, displacement, withRattlers, gasVolume, iteration, broken, atRest;
+	for (std::size_t k = 0; k < levelNumbers.size(); ++k) {
+		const auto& n = levelNumbers[k];
+		pressure.append(n[0]), gasSat.append(n[1]), unbalancedForce.append(n[2]), displacement.append(n[3]);
+		withRattlers.append(n[4]), gasVolume.append(n[5]);
+		iteration.append(levelCounts[k][0]), broken.append(levelCounts[k][1]), atRest.append(levelCounts[k][2] != 0);
+	}
+	py::dict d;
+	d["pressure"] = pressure, d["gasSaturation"] = gasSat, d["brokenBonds"] = broken, d["displacement"] = displacement;
+	d["displacementWithRattlers"] = withRattlers, d["unbalanced"] = unbalancedForce, d["atRest"] = atRest;
+	d["iteration"] = iteration, d["gasVolume"] = gasVolume;
+	return d;
+}
+
+py::list GasInvasionEngine::pyBonds()
+{
+	scene = Omega::instance().getScene().get();
+	py::list pairs;
+	for (std::size_t k = 0; k + 1 < savedBonds.size(); k += 2)
+		if (bondBroken(savedBonds[k], savedBonds[k + 1])) pairs.append(py::make_tuple(savedBonds[k], savedBonds[k + 1]));
+	return pairs;
+}
+
+py::tuple GasInvasionEngine::pyInletStretch(int nPores, Real centre)
+{
+	scene = Omega::instance().getScene().get();
+	// A network of the present scene, aside: the stretch is asked for before there is an inlet.
+	SceneReader fresh;
+	const auto  freshMesh = namingBodies(fresh, [&] {
+                fresh.find(*scene);
+                return capfrac::triangulate(fresh.grains, fresh.box);
+        });
+	std::vector<double> freshGaps;
+	Real                smallest = fresh.grains[0].radius;
+	for (const auto& g : fresh.grains)
+		smallest = math::min(smallest, g.radius);
+	for (const auto& edge : freshMesh.edges)
+		freshGaps.push_back(capfrac::gap(freshMesh, edge.a, edge.b, fresh.grains, fresh.box));
+	std::vector<std::uint8_t> open(freshGaps.size(), capfrac::freshEdge);
+	capfrac::updateOpenEdges(open, freshGaps, mergeTolerance * smallest, mergeTolerance * smallest);
+	const std::vector<capfrac::Phase> water(freshMesh.cells.size(), capfrac::Phase::water);
+	const auto mode      = poreMode == "domain" ? capfrac::PoreMode::domain : capfrac::PoreMode::triangle;
+	const auto found     = capfrac::findDomains(freshMesh, open, water, mode);
+	const auto stretches = wallStretches(freshMesh, found, fresh, wallFromName("inletWall", inletWall));
+	const int  n         = static_cast<int>(stretches.size());
+	if (nPores < 1 || nPores > n)
+		throw std::invalid_argument(
+		        "nPores = " + std::to_string(nPores) + ", allowed: 1 … " + std::to_string(n) + ", the number of pores along the " + inletWall + " wall");
+	int best = 0;
+	for (int first = 0; first + nPores <= n; ++first) {
+		auto off = [&](int f) { return math::abs(0.5 * (stretches[f].from + stretches[f + nPores - 1].to) - centre); };
+		if (off(first) < off(best)) best = first;
+	}
+	return py::make_tuple(stretches[best].from, stretches[best + nPores - 1].to);
+}
+
+Real GasInvasionEngine::pyNextEntryPressure()
+{
+	pyPrepare();
+	return capfrac::nextEntryPressure(drainageNetwork());
+}
+
+} // namespace yade

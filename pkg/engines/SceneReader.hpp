@@ -1,0 +1,41 @@
+#pragma once
+
+#include "../geometry/VoidGeometry.hpp"
+
+#include <core/Body.hpp>
+#include <core/Scene.hpp>
+
+#include <string>
+#include <vector>
+
+namespace yade {
+
+/// The grains and walls of a scene as the kernels want them, and the way back for forces.
+///
+/// A grain is a body with a Sphere shape, confined to the plane (blockedDOFs holds z, X and Y); the walls
+/// are the four bodies with a Wall shape, two of axis 0 and two of axis 1. Anything else in the scene is
+/// refused by its id: a body that takes room but is not in the network would break every volume balance.
+struct SceneReader {
+	std::vector<Body::id_t>                   grainIds; ///< vertex -> body
+	std::array<Body::id_t, capfrac::nWalls>   wallIds {}; ///< in the order of capfrac::Wall
+	std::vector<capfrac::Disk>                grains;
+	capfrac::Box                              box;
+
+	/// Finds grains and walls anew. Throws std::runtime_error naming the body at fault.
+	void find(const Scene& scene);
+	/// Reads positions and radii of the bodies found. Throws when one of them is gone or not finite.
+	void read(const Scene& scene);
+	/// Adds forces [N/m, times `thickness`] to grains and walls.
+	void addForces(Scene& scene, const capfrac::FluidForces& forces, Real thickness) const;
+	/// The vertex of a body; -1 where it is none.
+	int vertexOf(Body::id_t id) const;
+	/// The body of a vertex of the triangulation (grain or wall).
+	Body::id_t bodyOf(int vertex) const;
+	/// Number of bodies when find() ran, to notice a scene that changed.
+	std::size_t nBodies = 0;
+};
+
+/// "at time t = … s, iteration …": the beginning of every message from inside the loop.
+std::string whenInLoop(const Scene& scene);
+
+} // namespace yade

@@ -1,0 +1,21 @@
+/// The Python module capfrac._engines: loading it adds the classes of this folder to YADE.
+
+#include <core/Omega.hpp>
+#include <lib/factory/ClassFactory.hpp>
+#include <lib/serialization/Serializable.hpp>
+
+#include <boost/python.hpp>
+
+BOOST_PYTHON_MODULE(_engines)
+{
+	namespace py = boost::python;
+	// YADE's own classes must be there before ours derive from them.
+	py::object wrapper = py::import("yade.wrapper");
+	py::scope  inWrapper(wrapper);
+	// Bases first. Omega::loadPlugins would do it for all classes, but wraps YADE's own a second time.
+	for (const char* name :
+	     { "DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_DiskMat_WallMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D", "PoreNetworkEngine", "GasInvasionEngine", "WallServoEngine" }) {
+		auto instance = YADE_PTR_DYN_CAST<yade::Serializable>(yade::ClassFactory::instance().createShared(name));
+		instance->pyRegisterClass(wrapper);
+	}
+}

@@ -1,0 +1,56 @@
+#pragma once
+
+/// Void areas of the cells, gaps of the throats, and how both answer when grains and walls move.
+///
+/// The void area of a cell is its polygon less the sectors of its disks plus half of the lens (or the
+/// circular segment, at a wall) of every pair on its border that overlaps:
+///
+///     V = A - 1/2 sum theta_i r_i^2 + 1/2 sum lens                    [m^2, times the thickness w: m^3]
+///
+/// so that the sum over all cells is the area of the box, less the disks, plus the overlaps, exactly.
+/// Forces are the gradient of sum p V and nothing else (energy-consistent, no spurious work): fluid that
+/// presses on both sides of a throat and the traction in the gap itself are both in it.
+
+#include "Triangulation.hpp"
+
+namespace capfrac {
+
+/// Gap of a pair [m]: distance of the surfaces, negative where they overlap. `b` may be a wall.
+double gap(const Triangulation& mesh, int a, int b, const std::vector<Disk>& grains, const Box& box);
+
+/// Area common to two disks whose centres are `distance` apart [m^2]; 0 where they do not overlap.
+double lensArea(double ra, double rb, double distance);
+
+/// Part of a disk that lies beyond a wall at `distance` from its centre [m^2]; 0 where it does not reach it.
+double segmentArea(double r, double distance);
+
+/// Chord common to two overlapping circles [m], = -d(lensArea)/d(distance); 0 where they do not overlap.
+double lensChord(double ra, double rb, double distance);
+
+/// Chord that a wall at `distance` cuts from a circle [m]; 0 where it does not reach it.
+double segmentChord(double r, double distance);
+
+/// Void area of one cell [m^2]. Negative only for cells that are turned over or nearly full of disk.
+double voidArea(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
+
+/// Void areas of all cells [m^2].
+std::vector<double> voidAreas(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box);
+
+/// Centre of a cell, for reports and pictures [m]: mean of its corners (grain centres, feet, box corners).
+Vec2 cellCentre(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
+
+/// Corners of a cell, counter-clockwise [m]: three for a triangle, four for a cell at a wall.
+std::vector<Vec2> cellPolygon(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
+
+/// Fluid forces per thickness [N/m]: the gradient of sum p V.
+struct FluidForces {
+	std::vector<Vec2>             grains; ///< on the grains
+	std::array<Vec2, nWalls>      walls;  ///< on the walls; only the normal component can differ from zero
+};
+
+/// Forces of the pressures [Pa] of the cells on grains and walls, F = sum over cells of p dV/dx.
+/// One pass over the edges; the sum over all grains and walls is zero to round-off.
+FluidForces fluidForces(
+        const Triangulation& mesh, const std::vector<double>& pressure, const std::vector<Disk>& grains, const Box& box);
+
+} // namespace capfrac

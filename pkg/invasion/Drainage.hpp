@@ -1,0 +1,55 @@
+#pragma once
+
+/// Quasi-static drainage: which domains does gas enter at a given capillary pressure, in which order?
+///
+/// Gas advances through the throat with the lowest entry pressure that it touches, domain by domain,
+/// as long as there is one at or below the capillary pressure: invasion percolation (Wilkinson &
+/// Willemsen 1983) with a lid, an avalanche (Haines jump) per pressure level. Grains stand still
+/// meanwhile: the interface moves faster than the skeleton.
+
+#include "../network/Domains.hpp"
+
+namespace capfrac {
+
+/// A pair of domains and what gas needs to pass from one to the other.
+struct Throat {
+	int    edge          = -1; ///< edge of the triangulation
+	int    left          = -1; ///< domain on its left
+	int    right         = -1; ///< domain on its right
+	double entryPressure = 0;  ///< [Pa]
+	Vec2   position;           ///< [m]; decides between equal entry pressures, so that no numbering does
+};
+
+/// The network as drainage sees it, one entry per domain.
+struct DrainageNetwork {
+	std::vector<Throat>       throats;  ///< between different domains
+	std::vector<std::uint8_t> gas;      ///< 1: holds gas
+	std::vector<std::uint8_t> injected; ///< 1: holds gas that hangs on the inlet (only this gas advances)
+	std::vector<std::uint8_t> outlet;   ///< 1: water leaves the sample here (used with trapping)
+};
+
+/// One domain entered through one throat.
+struct DrainageStep {
+	int throat = -1; ///< index into DrainageNetwork::throats
+	int domain = -1; ///< the domain entered
+};
+
+struct Drainage {
+	std::vector<DrainageStep> steps;   ///< in the order of invasion
+	std::vector<int>          trapped; ///< domains of water that lost (or never had) the outlet; only with trapping
+};
+
+/// Domains of gas from which the inlet can be reached through gas. `seed` marks the domains at the inlet.
+std::vector<std::uint8_t> connectedGas(const DrainageNetwork& network, const std::vector<std::uint8_t>& seed);
+
+/// Domains of water from which an outlet can be reached through water (any throat conducts water).
+std::vector<std::uint8_t> connectedWater(const DrainageNetwork& network);
+
+/// The avalanche at `capillaryPressure` [Pa]. With `trapping`, water that is cut off from every outlet
+/// stays: neither the domains that were cut off before nor those cut off on the way are entered.
+Drainage drain(const DrainageNetwork& network, double capillaryPressure, bool trapping);
+
+/// The lowest entry pressure that the injected gas meets [Pa]; infinity where it meets none.
+double nextEntryPressure(const DrainageNetwork& network);
+
+} // namespace capfrac

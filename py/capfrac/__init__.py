@@ -1,0 +1,66 @@
+"""capfrac: when gas pushes into water-filled sediment, does it slip between the grains or push them apart?
+
+An extension of YADE. ``import capfrac`` in a YADE script or session adds the classes
+
+* ``DiskMat``, ``WallMat``: materials of the grains (disks) and of the box,
+* ``Ip2_DiskMat_DiskMat_CohFrictPhys``, ``Ip2_DiskMat_WallMat_CohFrictPhys``, ``Ig2_Wall_Sphere_ScGeom6D``:
+  their contacts,
+* ``PoreNetworkEngine``, ``GasInvasionEngine``: the pores, and gas that enters them,
+* ``WallServoEngine``: walls that hold stresses,
+
+to ``yade.wrapper`` (and to the session's names), and gives what is around them:
+
+* :mod:`capfrac.sediment`: make a sample, compress it, bond it,
+* :mod:`capfrac.injection`: run an injection of gas,
+* :mod:`capfrac.mode`: capillary invasion or fracture, as numbers,
+* :mod:`capfrac.case`, :mod:`capfrac.cli`: case files and the command ``capfrac``,
+* :mod:`capfrac.figures`, :mod:`capfrac.export`: pictures and fields for ParaView.
+
+All quantities are in SI units; stresses and pressures are positive in compression.
+"""
+
+__version__ = "0.1.0"
+
+from capfrac.errors import CapfracError, CaseError, SampleError, SceneError
+
+__all__ = ["CapfracError", "CaseError", "SampleError", "SceneError", "load_engines"]
+
+
+def load_engines():
+    """Add capfrac's classes to YADE. Needs YADE on ``sys.path``; done by ``import capfrac`` inside a YADE session.
+
+    Returns the module ``yade.wrapper``, which then holds the classes. Raises :class:`CapfracError` where the
+    engines were not built or YADE is not to be had in this interpreter.
+    """
+    import contextlib
+    import importlib
+    import io
+
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):  # YADE greets on import; a program that uses it need not
+            importlib.import_module("yade")
+        wrapper = importlib.import_module("yade.wrapper")
+        importlib.import_module("capfrac._engines")
+    except ImportError as problem:
+        raise CapfracError(
+            f"capfrac's engines cannot be loaded ({problem}); start Python with `capfrac python`, "
+            "or YADE with `capfrac yade`, which know where everything is"
+        ) from problem
+    names = ["DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_DiskMat_WallMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D",
+             "PoreNetworkEngine", "GasInvasionEngine", "WallServoEngine"]
+    main = importlib.import_module("__main__")
+    for name in names:
+        # A YADE session has YADE's classes among its own names: ours belong there too.
+        if hasattr(main, "O") and not hasattr(main, name):
+            setattr(main, name, getattr(wrapper, name))
+    return wrapper
+
+
+def _inside_yade():
+    import sys
+
+    return "yade" in sys.modules and "yade.wrapper" in sys.modules
+
+
+if _inside_yade():
+    load_engines()

@@ -1,0 +1,134 @@
+"""The command ``capfrac``. Exit status: 0 done, 1 a problem (one sentence on stderr), 2 wrong usage, 130 interrupted."""
+
+import argparse
+import os
+import sys
+
+from capfrac import __version__
+from capfrac.errors import CapfracError
+
+
+def _parser():
+    parser = argparse.ArgumentParser(prog="capfrac", description="When gas pushes into water-filled sediment, does it slip between the grains or push them apart?")
+    parser.add_argument("--version", action="version", version=f"capfrac {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True)
+    inject = commands.add_parser("inject", help="run an injection of gas from a case file", description="Run a case: make the sample, inject gas, say which mode it was. "
+                                 "Interrupted with Ctrl-C, the same command takes the run up where it stopped.")
+    inject.add_argument("case", help="a case file (TOML), or the name of a shipped case: see `capfrac cases`")
+    inject.add_argument("-o", "--output", help="run folder (default: runs/<case>-seed<seed>)")
+    inject.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a value of the case, e.g. -s grains.seed=7")
+    inject.add_argument("--restart", action="store_true", help="discard an earlier run in the folder")
+    inject.add_argument("-q", "--quiet", action="store_true", help="no progress, only the result")
+    commands.add_parser("cases", help="list the shipped cases")
+    commands.add_parser("describe", help="list every key of a case file with its unit, default and meaning")
+    python = commands.add_parser("python", help="Python with YADE and capfrac at hand", add_help=False)
+    python.add_argument("arguments", nargs=argparse.REMAINDER)
+    yade = commands.add_parser("yade", help="YADE, with capfrac at hand (`import capfrac` in it)", add_help=False)
+    yade.add_argument("arguments", nargs=argparse.REMAINDER)
+    return parser
+
+
+class _Progress:
+    """One line of progress: text while the sample is made, a bar of pressure and saturation afterwards."""
+
+    def __init__(self, case, quiet):
+        self.ramp, self.quiet, self.meter, self.last = case["ramp"], quiet, None, ""
+
+    def report(self, text):
+        if self.quiet:
+            return
+        label = text.split(":")[0]
+        if sys.stderr.isatty():
+            sys.stderr.write(f"\r\033[K{text}")
+        elif label != self.last:  # in a log one line a stage is enough
+            sys.stderr.write(f"{label}\n")
+        self.last = label
+        sys.stderr.flush()
+
+    def bar(self, pressure, saturation):
+        if self.quiet:
+            return
+        if self.meter is None:
+            from tqdm import tqdm
+
+            if sys.stderr.isatty():
+                sys.stderr.write("\r\033[K")
+            self.meter = tqdm(total=self.ramp["max"] - self.ramp["start"], unit="Pa", unit_scale=True, desc="gas", mininterval=0.5 if sys.stderr.isatty() else 15,
+                              bar_format="{desc} {percentage:3.0f}%|{bar:25}| {elapsed}<{remaining} {postfix}")
+        self.meter.set_postfix_str(f"P_c = {pressure:.4g} Pa, S_g = {saturation:.1%}", refresh=False)
+        self.meter.update(pressure - self.ramp["start"] - self.meter.n)
+
+    def close(self):
+        if self.meter is not None:
+            self.meter.close()
+
+
+def _inject(arguments):
+    from capfrac import mode
+    from capfrac.case import readCase
+
+    case = readCase(arguments.case, arguments.set)
+    folder = arguments.output or os.path.join("runs", f"{case['case']['name']}-seed{case['grains']['seed']}")
+    from capfrac.injection import inject
+
+    progress = _Progress(case, arguments.quiet)
+    try:
+        summary = inject(case, folder, restart=arguments.restart, report=progress.report, bar=progress.bar)
+    except KeyboardInterrupt:
+        progress.close()
+        print(f"\ninterrupted; the same command takes the run up again from {folder}", file=sys.stderr)
+        return 130
+    finally:
+        progress.close()
+    print(f"{summary['title'] or case['case']['name']}: {summary['ended']}")
+    print(mode.asText(mode.Mode(**summary["mode"])))
+    print(f"run folder: {folder}")
+    return 0
+
+
+def _cases():
+    from capfrac.case import readCase, shippedCases
+
+    for name in shippedCases():
+        print(f"{name}: {readCase(name)['case']['title']}")
+    return 0
+
+
+def _yade(arguments):
+    import glob
+
+    from yade import config
+
+    # Read from config, not from PATH: the YADE that the engines were built for.
+    found = sorted(glob.glob(os.path.join(config.prefix, "bin", f"yade{config.suffix}")))
+    if not found:
+        raise CapfracError(f"there is no yade{config.suffix} in {config.prefix}/bin")
+    os.execv(found[0], [found[0], *arguments])
+
+
+def main(argv=None):
+    arguments = _parser().parse_args(argv)
+    try:
+        if arguments.command == "inject":
+            return _inject(arguments)
+        if arguments.command == "cases":
+            return _cases()
+        if arguments.command == "describe":
+            from capfrac.case import describeKeys
+
+            print(describeKeys())
+            return 0
+        if arguments.command == "python":
+            os.execv(sys.executable, [sys.executable, *arguments.arguments])
+        return _yade(arguments.arguments)
+    except CapfracError as problem:
+        print(f"capfrac: error: {problem}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,316 @@
+"""Pictures of snapshots and curves of an injection, in the language of Figures 15 and 16 of Jain & Juanes (2009).
+
+Grains are disks, gas is blue, compression between grains is brown and tension green, with lines from centre to centre
+as thick as the force is large. A picture's file has the same bytes whenever it is drawn from the same numbers.
+"""
+
+import math
+import os
+from contextlib import contextmanager
+
+import matplotlib
+import numpy as np
+from matplotlib import style
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PatchCollection, PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Rectangle
+
+from capfrac.errors import CaseError
+from capfrac.snapshot import WALL_AXIS, WALL_NAMES
+
+COLOURS = {"grain": "#f3e8c3", "rattler": "#f7f4ec", "outline": "#9a8f73", "gas": "#5aa9ea", "dot": "#0f4fa8", "compression": "#8b4a1c",
+           "tension": "#1c8f3a", "broken": "#e0182d", "wall": "#3c3c3c", "inlet": "#0f4fa8"}
+#: Forces are drawn to scale up to this percentile of their magnitudes, which is as thick as this share of the mean radius.
+FORCE_PERCENTILE, FORCE_WIDTH = 95, 0.4
+#: Forces above this multiple of that percentile are drawn no thicker: one crack tip must not hide its neighbours.
+FORCE_LIMIT = 2.0
+_RESOLUTION = 220  # dots per inch
+
+
+def drawSnapshot(snapshot, path, title=None, width=4.6, forces=True, bonds=True, dots=True, forceScale=None):
+    """Draw one snapshot to ``path`` (.png, .pdf or .svg).
+
+    ``title`` replaces P_c and S_g above the sample; ``width`` of the sample is in inches. ``forces``, ``bonds`` and
+    ``dots`` leave the contact forces, the broken bonds and the dots in the gas pores out when False. ``forceScale``
+    [N] is the force whose line has the standard width; by default a high percentile of the snapshot's own forces: give
+    it to make pictures comparable (see :func:`forceScaleOf`).
+    """
+    _drawPanels([snapshot], path, [title], width, forces, bonds, dots, forceScale)
+
+
+def drawPair(snapshots, path, titles=None, width=3.6, forces=True, bonds=True, dots=True, forceScale=None):
+    """Draw snapshots side by side with one scale of lengths' unit and of forces, as in Figures 15 and 16.
+
+    Any number of snapshots >= 1; ``titles`` as many, or None. The rest as in :func:`drawSnapshot`.
+    """
+    snapshots = list(snapshots)
+    titles = [None] * len(snapshots) if titles is None else list(titles)
+    if not snapshots or len(titles) != len(snapshots):
+        raise CaseError(f"drawPair got {len(snapshots)} snapshots and {len(titles)} titles, allowed: at least one, as many titles as snapshots")
+    _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
+
+
+def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPressure=math.nan, waterPressure=0.0, title=None):
+    """Draw what an injection did, level by level: P_c against saturation, opening and displacement against P_c.
+
+    ``levels`` and ``events`` are the dicts of ``gas.levels()`` and ``gas.events()``. The second panel shows the share of
+    the invaded throats that had opened (with ``events``) and broken bonds, as a share of ``bondCount`` where that is
+    given. Pressures are those of the engine [Pa]; ``waterPressure`` is taken off. Hollow marks are levels that ended
+    before the grains were at rest. Raises :class:`CaseError` when no level is finished.
+    """
+    if len(levels["pressure"]) == 0:
+        raise CaseError("levels holds no finished pressure level, allowed: at least one")
+    power, unit = max((power, unit) for power, unit in ((0, "Pa"), (3, "kPa"), (6, "MPa")) if power == 0 or max(levels["pressure"]) >= 10.0**power)
+    pressure = (np.array(levels["pressure"], dtype=float) - waterPressure) / 10.0**power
+    breakthrough = (breakthroughPressure - waterPressure) / 10.0**power
+    fill = [COLOURS["dot"] if rest else "white" for rest in levels["atRest"]]
+
+    with _figure((9.6, 3.1)) as figure:
+        curve, opening, moving = figure.subplots(1, 3, gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.165, "top": 0.89 if title else 0.95, "wspace": 0.33})
+        curve.plot(levels["gasSaturation"], pressure, color=COLOURS["gas"], linewidth=1.2, zorder=2)
+        curve.scatter(levels["gasSaturation"], pressure, s=9, c=fill, edgecolors=COLOURS["dot"], linewidths=0.7, zorder=3, clip_on=False)
+        curve.set(xlabel="gas saturation $S_g$", ylabel=f"capillary pressure $P_c$ [{unit}]", xlim=(0, 1))
+
+        share = bondCount or 1
+        bondLabel = "broken bonds / bonds" if bondCount else "broken bonds"
+        opening.plot(pressure, np.array(levels["brokenBonds"]) / share, color=COLOURS["broken"], linewidth=1.4, label=bondLabel)
+        if events is not None and len(events["opened"]):
+            # Up to the last event of each pressure: within an avalanche the share says nothing about the pressure.
+            at, last = np.unique(np.array(events["gasPressure"])[::-1], return_index=True)
+            last = len(events["opened"]) - last
+            at, opened = (at - waterPressure) / 10.0**power, np.cumsum(events["opened"])[last - 1]
+            axes = opening if bondCount else opening.twinx()
+            line = axes.plot(at, opened / last, color=COLOURS["dot"], linewidth=1.4, drawstyle="steps-post", label="opened / invaded throats")
+            axes.set_ylim(-0.03, 1.03)
+            if not bondCount:
+                axes.set_ylabel("share of the invaded throats")
+                opening.plot([], [], color=line[0].get_color(), linewidth=1.4, label="opened / invaded throats")
+        opening.set(ylabel="share" if bondCount else "broken bonds")
+        opening.legend(fontsize=7, frameon=False, loc="best")
+
+        for key, label, colour, line in (("displacement", "loaded grains", COLOURS["compression"], "-"),
+                                         ("displacementWithRattlers", "all grains", COLOURS["outline"], (0, (2, 2)))):
+            values = np.array(levels[key], dtype=float)
+            moving.plot(pressure, np.where(values > 0, values, np.nan), linestyle=line, color=colour, linewidth=1.4, label=label)
+        moving.set(yscale="log", ylabel="largest displacement / radius")
+        low, high = (math.log10(v) for v in moving.get_ylim())
+        moving.set_ylim(10.0 ** math.floor(low), 10.0 ** math.ceil(high))  # whole decades, to be read at a glance
+        moving.legend(fontsize=7, frameon=False, loc="best")
+
+        for axes in (opening, moving):
+            axes.set(xlabel=f"capillary pressure $P_c$ [{unit}]", xlim=_rangeOf(pressure))
+        if math.isfinite(breakthrough):
+            marker = {"color": "0.45", "linewidth": 0.9, "linestyle": (0, (4, 3)), "zorder": 1}
+            curve.axhline(breakthrough, **marker)
+            curve.text(0.98, breakthrough, "breakthrough", ha="right", va="bottom", fontsize=7, color="0.35")
+            opening.axvline(breakthrough, **marker)
+            moving.axvline(breakthrough, **marker)
+        for axes in figure.axes:
+            axes.tick_params(labelsize=8)
+            axes.spines["top"].set_visible(False)
+        for axes in (curve, opening, moving):
+            axes.spines["right"].set_visible(False)
+        if title:
+            figure.suptitle(title, fontsize=10, y=0.985)
+        _save(figure, path)
+
+
+def _rangeOf(values):
+    low, high = float(np.min(values)), float(np.max(values))
+    rim = 0.03 * (high - low) or 0.03 * abs(high) or 1.0
+    return low - rim, high + rim
+
+
+def forceScaleOf(*snapshots):
+    """Contact force [N] that the standard width stands for: a high percentile over all the snapshots, > 0."""
+    forces = np.concatenate([np.abs(s.normalForce) for s in snapshots])
+    forces = forces[forces > 0]
+    return float(np.percentile(forces, FORCE_PERCENTILE)) if len(forces) else 1.0
+
+
+def quantity(value, unit, digits=3):
+    """A number with an SI prefix, for people: ``quantity(1.5e5, "Pa")`` is "150 kPa"."""
+    prefixes = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
+    if not math.isfinite(value) or value == 0:
+        return f"{value:g} {unit}"
+    # Round first: 999.9 of one prefix is 1 of the next.
+    value = float(f"{value:.{digits}g}")
+    power = min(max(3 * math.floor(math.log10(abs(value)) / 3 + 1e-12), -12), 9)
+    return f"{value / 10.0**power:.{digits}g} {prefixes[power]}{unit}"
+
+
+def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale):
+    scale = forceScale or forceScaleOf(*snapshots)
+    # Everything in inches: rims around the samples, and room for title, scale bar and legend outside of them. One scale
+    # of lengths for all panels, so that a sample that was pushed apart looks larger.
+    rim, gap, head = 0.18, 0.3, 0.36
+    sides = np.array([(s.box[1] - s.box[0], s.box[3] - s.box[2]) for s in snapshots])
+    inches = width / np.max(sides[:, 0])
+    height = inches * np.max(sides[:, 1])
+    room = len(snapshots) * width + (len(snapshots) - 1) * gap
+    handles = _legend(snapshots, 72 * inches, forces, bonds, dots, scale)
+    columns = _legendColumns(handles, room)
+    foot = 0.42 + 0.135 * math.ceil(len(handles) / columns)
+    total = np.array([room + 2 * rim, head + height + foot])
+    with _figure(total) as figure:
+        for k, (snapshot, (across, up), title) in enumerate(zip(snapshots, inches * sides, titles)):
+            x = rim + k * (width + gap)
+            axes = figure.add_axes([x / total[0], foot / total[1], across / total[0], up / total[1]])
+            _drawSample(axes, snapshot, 72 * inches, forces, bonds, dots, scale)
+            _drawScaleBar(axes, snapshot, inches)
+            figure.text((x + across / 2) / total[0], 1 - 0.5 * head / total[1], _stateOf(snapshot) if title is None else title,
+                        ha="center", va="center", fontsize=10)
+        figure.legend(handles=handles, ncol=columns, loc="lower left", bbox_to_anchor=(rim / total[0], 0.05 / total[1]), fontsize=7, frameon=False,
+                      borderaxespad=0, borderpad=0, handlelength=1.5, columnspacing=1.3, handletextpad=0.5, labelspacing=0.35)
+        _save(figure, path)
+
+
+def _stateOf(snapshot):
+    return f"$P_c$ = {quantity(snapshot.capillaryPressure, 'Pa')},   $S_g$ = {snapshot.gasSaturation:.2f}"
+
+
+def _drawSample(axes, s, points, forces, bonds, dots, scale):
+    """``points`` per metre turn lengths of the sample into widths of lines; ``scale`` [N] is the standard force."""
+    left, right, bottom, top = s.box
+    radius = float(np.mean(s.r)) * points if len(s.r) else 1.0
+
+    gas = np.flatnonzero(s.gasCells)
+    # Outlines of their own colour close the hairlines that antialiasing leaves between neighbouring cells.
+    axes.add_collection(PolyCollection([s.polygon(c) for c in gas], facecolors=COLOURS["gas"], edgecolors=COLOURS["gas"], linewidths=0.5, zorder=1))
+    colours = np.where(s.rattler, COLOURS["rattler"], COLOURS["grain"])
+    grains = [Circle(centre, r) for centre, r in zip(np.column_stack([s.x, s.y]), s.r)]
+    axes.add_collection(PatchCollection(grains, facecolors=list(colours), edgecolors=COLOURS["outline"], linewidths=min(0.6, 0.06 * radius), zorder=2))
+    if dots and len(gas):
+        centres, clearances = _gasDots(s, gas)
+        spots = [Circle(centre, r) for centre, r in zip(centres, np.minimum(0.6 * clearances, 0.3 * np.mean(s.r)))]
+        axes.add_collection(PatchCollection(spots, facecolors=COLOURS["dot"], linewidths=0, zorder=3))
+    if forces:
+        for colour, sign, layer in (("compression", 1, 4), ("tension", -1, 5)):
+            chosen = np.sign(s.normalForce) == sign
+            widths = FORCE_WIDTH * radius * np.minimum(np.abs(s.normalForce[chosen]) / scale, FORCE_LIMIT)
+            axes.add_collection(LineCollection(s.contactEnds[chosen], colors=COLOURS[colour], linewidths=widths, capstyle="round", zorder=layer))
+    if bonds and len(s.brokenBonds):
+        axes.add_collection(LineCollection(_bondStrokes(s), colors=COLOURS["broken"], linewidths=_strokeWidth(radius), capstyle="round", zorder=6))
+    axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, edgecolor=COLOURS["wall"], linewidth=1.2, zorder=7, clip_on=False))
+    _drawInlet(axes, s, points)
+    axes.set(xlim=(left, right), ylim=(bottom, top))
+    axes.set_axis_off()
+
+
+def _strokeWidth(radius):
+    return min(max(0.16 * radius, 0.7), 2.0)
+
+
+def _gasDots(s, gas):
+    """For each gas domain the roomiest of many trial points in its cells, and its distance to the nearest grain [m].
+
+    Such a point is in the pore whatever its shape; a centroid may lie on a grain.
+    """
+    n = 9
+    weights = np.array([(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)]) / n
+    best = {}
+    for c in gas:
+        corners, rows = s.polygon(c), s.rowOf(s.cellVertices[c])
+        rows = rows[rows >= 0]
+        fan = np.array([[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)])
+        trials = (weights @ fan).reshape(-1, 2)
+        free = np.min(np.hypot(trials[:, :1] - s.x[rows], trials[:, 1:] - s.y[rows]) - s.r[rows], axis=1)
+        free = np.minimum(free, np.min(np.abs(trials[:, [0, 0, 1, 1]] - s.box), axis=1))
+        k = int(np.argmax(free))
+        if free[k] > best.get(s.cellDomain[c], (0.0, None))[0]:
+            best[s.cellDomain[c]] = (free[k], trials[k])
+    order = sorted(best)
+    return np.array([best[d][1] for d in order]).reshape(-1, 2), np.array([best[d][0] for d in order])
+
+
+def _bondStrokes(s):
+    """Short strokes across the broken contacts, half way between the surfaces of the two bodies."""
+    ends = s.endsOf(s.brokenBonds)
+    known = np.all(np.isfinite(ends), axis=(1, 2))
+    ends, rows = ends[known], s.rowOf(s.brokenBonds[known])
+    radii = np.where(rows >= 0, s.r[rows], 0.0)
+    along = ends[:, 1] - ends[:, 0]
+    length = np.linalg.norm(along, axis=1, keepdims=True)
+    along = along / np.where(length > 0, length, 1)
+    middle = ends[:, 0] + along * 0.5 * (length + radii[:, :1] - radii[:, 1:])
+    half = 0.4 * np.where(radii > 0, radii, np.inf).min(axis=1, keepdims=True) * np.column_stack([-along[:, 1], along[:, 0]])
+    return np.stack([middle - half, middle + half], axis=1)
+
+
+def _drawInlet(axes, s, points):
+    if s.inletPoints.size:
+        axes.plot(*s.inletPoints.T, marker="o", markersize=6, markerfacecolor="none", markeredgecolor=COLOURS["inlet"], linestyle="none", zorder=8)
+    if s.inletWall and s.inletTo > s.inletFrom:
+        # A bar just outside of the wall, over the stretch that takes the gas.
+        axis, place = WALL_AXIS[s.inletWall], s.box[WALL_NAMES.index(s.inletWall)]
+        outward = 1 if WALL_NAMES.index(s.inletWall) % 2 else -1
+        line = np.empty((2, 2))
+        line[:, axis] = place + outward * 2.6 / points
+        line[:, 1 - axis] = s.inletFrom, s.inletTo
+        axes.plot(*line.T, color=COLOURS["inlet"], linewidth=4, solid_capstyle="butt", clip_on=False, zorder=8)
+
+
+def _drawScaleBar(axes, s, inches):
+    """A bar of 1, 2 or 5 units, at most a quarter of the sample, below its right corner; ``inches`` per metre."""
+    left, right, bottom, _ = s.box
+    room = (right - left) / 4
+    decade = 10.0 ** math.floor(math.log10(room))
+    length = max(m * decade for m in (1, 2, 5) if m * decade <= room)
+    y = bottom - 0.19 / inches
+    axes.plot([right - length, right], [y, y], color="black", linewidth=1.6, solid_capstyle="butt", clip_on=False)
+    axes.text(right - 1.03 * length, y, quantity(length, "m"), ha="right", va="center", fontsize=8)
+
+
+def _legend(snapshots, points, forces, bonds, dots, scale):
+    s = snapshots[0]
+    radius = float(np.mean(s.r)) * points if len(s.r) else 1.0
+    disk = {"marker": "o", "linestyle": "none", "markersize": 6.5, "markeredgecolor": COLOURS["outline"], "markeredgewidth": 0.6}
+    handles = [Line2D([], [], markerfacecolor=COLOURS["grain"], label="grain", **disk)]
+    if any(np.any(t.rattler) for t in snapshots):
+        handles.append(Line2D([], [], markerfacecolor=COLOURS["rattler"], label="grain without load", **disk))
+    if any(np.any(t.gasCells) for t in snapshots):
+        handles.append(Line2D([], [], color=COLOURS["gas"], linewidth=7, solid_capstyle="butt", marker="o", markersize=3.2 if dots else 0,
+                              markerfacecolor=COLOURS["dot"], markeredgewidth=0, label="gas (dot per pore)" if dots else "gas"))
+    if any(t.inletPoints.size or t.inletTo > t.inletFrom for t in snapshots):
+        handles.append(Line2D([], [], color=COLOURS["inlet"], linewidth=4, solid_capstyle="butt", label="inlet"))
+    if forces:
+        # One round force for both signs, so that the keys' widths can be compared.
+        round1 = float(f"{scale:.1g}")
+        force = {"linewidth": FORCE_WIDTH * radius * round1 / scale, "solid_capstyle": "butt"}
+        for name, sign in (("compression", 1), ("tension", -1)):
+            if any(np.any(sign * t.normalForce > 0.02 * scale) for t in snapshots):  # else no one could see it
+                handles.append(Line2D([], [], color=COLOURS[name], label=f"{name}, {quantity(round1, 'N')}", **force))
+    if bonds and any(len(t.brokenBonds) for t in snapshots):
+        handles.append(Line2D([], [], color=COLOURS["broken"], marker="|", linestyle="none", markersize=6, markeredgewidth=_strokeWidth(radius),
+                              label="broken bond"))
+    return handles
+
+
+def _legendColumns(handles, room):
+    """As many columns as ``room`` inches hold, from the numbers of letters: to measure the text would cost a drawing."""
+    for columns in range(len(handles), 1, -1):
+        rows = math.ceil(len(handles) / columns)
+        longest = [max(len(h.get_label()) for h in handles[k:k + rows]) for k in range(0, len(handles), rows)]
+        if sum(0.049 * letters + 0.32 for letters in longest) <= room:
+            return columns
+    return 1
+
+
+@contextmanager
+def _figure(size):
+    """An empty figure in matplotlib's own style: the user's matplotlibrc must not change the pictures."""
+    with style.context("default"), matplotlib.rc_context({"svg.hashsalt": "capfrac", "font.size": 9, "pdf.fonttype": 42}):
+        figure = Figure(figsize=size, dpi=_RESOLUTION)
+        FigureCanvasAgg(figure)
+        yield figure
+
+
+def _save(figure, path):
+    """Without the date and the versions that matplotlib would put into the file."""
+    kind = os.path.splitext(str(path))[1].lower()
+    metadata = {".png": {"Software": None}, ".pdf": {"CreationDate": None, "Producer": None, "Creator": None}, ".svg": {"Date": None, "Creator": None}}
+    if kind not in metadata:
+        raise CaseError(f"the picture {path} would be of kind '{kind}', allowed: .png, .pdf, .svg")
+    figure.savefig(path, metadata=metadata[kind])

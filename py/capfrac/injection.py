@@ -1,0 +1,268 @@
+"""Run an injection: from a case to a run folder with numbers, pictures and fields.
+
+:func:`inject` does it all; :func:`startInjection` only puts the gas engine into a scene that has a sample, for scripts
+that want to drive it themselves::
+
+    from capfrac import sediment, injection
+    sediment.makeSample(sediment.Sediment(rMin=1e-3), stressV=10e3, stressH=8e3)
+    gas = injection.startInjection(start=100, increment=1, max=215, pores=3)
+    O.run(100000, True)
+    print(gas.breakthroughPressure, gas.levels()["gasSaturation"][-1])
+"""
+
+import math
+import platform
+import time
+from dataclasses import asdict
+from pathlib import Path
+
+from capfrac import export, figures, mode, sediment, snapshot
+from capfrac.case import readCase, resolveCase
+from capfrac.errors import CapfracError, CaseError, SceneError
+from capfrac.runfolder import RunFolder
+
+#: Time steps between looks at the run [-]; short enough that Ctrl-C answers at once.
+CHUNK = 50
+#: Seconds of real time between checkpoints.
+CHECKPOINT_PERIOD = 30
+
+
+def startInjection(start, increment, max, pores=0, wall="bottom", outlet="top", stretch=None, points=(), waterPressure=0.0, **attributes):
+    """Put a ``GasInvasionEngine`` (label ``gas``) into the current scene and prepare it; returns the engine.
+
+    ``start``, ``increment``, ``max``: the ramp of the capillary pressure [Pa]. The inlet is ``pores`` neighbouring pores
+    around the middle of ``wall``, or the ``stretch`` (from, to) [m] of it, or the pores that hold ``points`` [m]. All
+    other attributes of the engine can be given by name. Raises :class:`CaseError` for an impossible inlet, and
+    :class:`SceneError` for a scene that cannot be followed (RuntimeError of the engine); the scene then is as before.
+    """
+    from yade import O
+    from yade.wrapper import GasInvasionEngine
+
+    gas = GasInvasionEngine(label="gas", gasPressure=waterPressure + start, pressureIncrement=increment, waterPressure=waterPressure,
+                            maxPressure=waterPressure + max, inletWall=wall, outletWall=outlet, **attributes)
+    try:
+        if points:
+            gas.inletPoints = [tuple(map(float, point)) for point in points]
+        else:
+            gas.inletFrom, gas.inletTo = stretch or gas.inletStretch(pores, _middle(wall))
+        gas.prepare()
+    except ValueError as problem:
+        raise CaseError(f"inlet: {problem}") from None
+    except RuntimeError as problem:
+        raise SceneError(str(problem)) from None
+    engines = list(O.engines)
+    engines.insert(engines.index(sediment.engine("servo")), gas)
+    O.engines = engines
+    return sediment.engine("gas")
+
+
+def _middle(wall):
+    ends = ("bottom", "top") if wall in ("left", "right") else ("left", "right")
+    axis = 1 if wall in ("left", "right") else 0
+    walls = sediment.wallBodies()
+    return 0.5 * sum(walls[end].state.pos[axis] for end in ends)
+
+
+def _makeSample(case, say):
+    """The case's sample in the (empty) current scene: grains at rest under the stresses, contacts bonded."""
+    grains, cohesion = case["grains"], case["cohesion"]
+    packing = None
+    if grains["packing"]:
+        packing = sediment.readPacking(Path(case["case"].get("folder", ".")) / grains["packing"])
+        grains["rMin"], grains["rMax"] = float(packing[2].min()), float(packing[2].max())
+    sample = sediment.Sediment(
+        grainCount=grains["count"] if packing is None else len(packing[0]),
+        **{name: grains[name] for name in ("rMin", "rMax", "seed", "density", "normalStiffness", "shearStiffness", "friction", "wallFriction", "aspect")})
+    sediment.makeSample(sample, case["stress"]["vertical"], case["stress"]["horizontal"], packing, progress=say)
+    nBonds = sediment.bond(cohesion["chi"] * case["gas"]["interfacialTension"], cohesion["tensileStrength"], cohesion["shearStrength"])
+    sediment.relax(progress=say)
+    return nBonds
+
+
+def _startGas(case):
+    inlet, gas, ramp, network = case["inlet"], case["gas"], case["ramp"], case["network"]
+    walls = sediment.wallBodies()
+    axis = 1 if inlet["wall"] in ("left", "right") else 0
+    low = walls["bottom" if axis else "left"].state.pos[axis]
+    corner = (walls["left"].state.pos[0], walls["bottom"].state.pos[1])
+    stretch = None if inlet["from"] is None else (low + inlet["from"], low + inlet["to"])
+    return startInjection(
+        ramp["start"], ramp["increment"], ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"], stretch,
+        [(corner[0] + x, corner[1] + y) for x, y in inlet["points"]],
+        interfacialTension=gas["interfacialTension"], contactAngle=math.radians(gas["contactAngle"]), entryLaw=gas["entryLaw"],
+        trapping=gas["trapping"], poreMode=network["poreMode"], mergeTolerance=network["mergeTolerance"],
+        openingThreshold=network["openingThreshold"], checkInvariants=network["checkInvariants"],
+        unbalancedTolerance=ramp["unbalanced"], minLevelSteps=ramp["minLevelSteps"], maxLevelSteps=ramp["maxLevelSteps"])
+
+
+def _boxSize():
+    walls = sediment.wallBodies()
+    return walls["right"].state.pos[0] - walls["left"].state.pos[0], walls["top"].state.pos[1] - walls["bottom"].state.pos[1]
+
+
+class Run:
+    """One injection in the current scene, writing to a run folder. Made by :func:`inject`."""
+
+    def __init__(self, case, folder, report):
+        self.case, self.folder, self.report = case, folder, report
+        self.gas = self.start = None
+        self.spent = folder.summary.get("seconds", 0.0)
+        self.clock = time.time()
+
+    def begin(self):
+        """Make the sample and start the gas, or take up the checkpoint."""
+        from yade import O
+
+        if self.folder.checkpoint.exists():
+            self.report("taking up the run at its checkpoint")
+            O.load(str(self.folder.checkpoint), quiet=True)
+            self.gas = sediment.engine("gas")
+            self.start = snapshot.load(self.folder.sub("snapshots") / "start.npz")
+            return
+        nBonds = _makeSample(self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}"))
+        self.gas = _startGas(self.case)
+        throats = [p for p in self.gas.throats()["entryPressure"] if p > 0]
+        bonded = sum(1 for i in O.interactions if i.isReal and not i.phys.cohesionBroken)
+        self.folder.writeSummary(
+            state="running", title=self.case["case"]["title"], versions=versions(), parameters=self.case, snapshots=[],
+            sample={"grains": len(O.bodies) - 4, "boxWidth [m]": _boxSize()[0], "boxHeight [m]": _boxSize()[1], "stress [Pa]": list(sediment.engine("servo").stress),
+                    "porosity": self.gas.volumes()["void"] / math.prod(_boxSize()), "bondsSet": nBonds, "bondsHolding": bonded,
+                    "rattlers": len(self.gas.rattlers), "throatEntryPressureMin [Pa]": min(throats), "throatEntryPressureMax [Pa]": max(throats),
+                    "inletPores": self.gas.inletPores, "inletWidth [m]": self.gas.inletWidth})
+        self.start = snapshot.takeSnapshot(self.gas)
+        self.picture("start")
+        self.checkpoint()
+
+    def picture(self, name):
+        """Take a snapshot: state, picture and fields."""
+        shot = snapshot.takeSnapshot(self.gas, self.start)
+        shots = self.folder.sub("snapshots")
+        shot.save(shots / f"{name}.npz")
+        figures.drawSnapshot(shot, shots / f"{name}.png", title=None)
+        entry = {"name": name, "time [s]": shot.time, "capillaryPressure [Pa]": shot.gasPressure - shot.waterPressure, "gasSaturation": shot.gasSaturation}
+        entries = [e for e in self.folder.summary["snapshots"] if e["name"] != name] + [entry]
+        if self.case["output"]["fields"]:
+            fields = self.folder.sub("fields")
+            export.writeFields(shot, fields, name)
+            for kind in ("cells", "grains", "throats", "contacts"):
+                files = [(e["time [s]"], f"{e['name']}_{kind}.vtu") for e in entries if (fields / f"{e['name']}_{kind}.vtu").exists()]
+                if files:
+                    export.writeCollection(fields / f"{kind}.pvd", files)
+        self.folder.writeSummary(snapshots=entries)
+
+    def checkpoint(self):
+        """Save the scene and the logs so that the run can be taken up here."""
+        self.folder.saveCheckpoint()
+        self.folder.writeLogs(self.gas)
+        self.spent += time.time() - self.clock
+        self.clock = time.time()
+        self.folder.writeSummary(seconds=self.spent, mode=asdict(mode.measureMode(self.gas)))
+
+    def ended(self):
+        """Why the run is over, or an empty text."""
+        ramp = self.case["ramp"]
+        if ramp["endAt"] == "breakthrough" and self.gas.breakthroughIter >= 0:
+            return "gas reached the outlet"
+        before = self.folder.summary["sample"]
+        growth = max(_boxSize()[0] / before["boxWidth [m]"], _boxSize()[1] / before["boxHeight [m]"]) - 1
+        if growth > ramp["maxExtension"]:
+            return f"the sample came apart: the box grew by {growth:.0%}"
+        if self.gas.rampDone and self.gas.gasPressure - self.gas.waterPressure >= ramp["max"]:
+            return "the ramp is done"
+        return ""
+
+    def loop(self, bar):
+        """Run to the end, with snapshots on the way."""
+        from yade import O
+
+        gas, water = self.gas, self.gas.waterPressure
+        stops = sorted(p for p in self.case["output"]["pressures"] if self.case["ramp"]["start"] <= p < self.case["ramp"]["max"])
+        taken = {e["name"] for e in self.folder.summary["snapshots"]}
+        stops = [p for p in stops if f"{p:.0f}Pa" not in taken]
+        saved = time.time()
+        while True:
+            gas.maxPressure = water + (stops[0] if stops else self.case["ramp"]["max"])
+            O.run(CHUNK, True)
+            bar(gas.gasPressure - water, gas.gasSaturation)
+            if gas.breakthroughIter >= 0 and "breakthrough" not in taken:
+                taken.add("breakthrough")
+                self.picture("breakthrough")
+            if stops and gas.rampDone:
+                self.picture(f"{stops.pop(0):.0f}Pa")
+                continue
+            reason = self.ended()
+            if reason:
+                return reason
+            if time.time() - saved > CHECKPOINT_PERIOD:
+                self.checkpoint()
+                saved = time.time()
+
+    def finish(self, reason):
+        """Write what a finished run has; the checkpoint goes."""
+        gas = self.gas
+        self.picture("end")
+        self.checkpoint()
+        measured = mode.measureMode(gas)
+        levels = gas.levels()
+        figures.drawCapillaryCurve(levels, self.folder.path / "curve.png", events=gas.events(), bondCount=self.folder.summary["sample"]["bondsHolding"],
+                                   breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure, title=self.case["case"]["title"])
+        results = {"saturation": {f"capillaryPressureAt{share:.0%} [Pa]": next(
+            (p - gas.waterPressure for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= share), None) for share in (0.5, 0.9, 0.97)},
+            "displacementWithRattlers [r]": max(levels["displacementWithRattlers"], default=0.0),
+            "largestDisplacementAtEnd [r]": max(levels["displacement"], default=0.0), "remeshes": gas.nRemeshes,
+            "ledger [m^3]": dict(gas.volumes()), "iterations": levels["iteration"][-1] if levels["iteration"] else 0}
+        self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results)
+        self.folder.checkpoint.unlink(missing_ok=True)
+
+
+def versions():
+    """Versions of everything that can change a result."""
+    import numpy
+    from yade import config
+
+    import capfrac
+
+    return {"capfrac": capfrac.__version__, "yade": config.version, "yadeFeatures": list(config.features), "python": platform.python_version(),
+            "numpy": numpy.__version__, "machine": platform.machine()}
+
+
+def inject(case, folder, restart=False, report=print, bar=lambda pressure, saturation: None, replaceScene=False):
+    """Run a case into a run folder and return its summary (a dict, the content of summary.json).
+
+    ``case``: a name of a shipped case, a path, a resolved case, or a dict of sections. A folder that holds an
+    unfinished run of the same parameters is taken up where it stopped; a finished one is returned as it is.
+    ``report(text)`` and ``bar(pressure [Pa], saturation)`` show progress. Interrupted (Ctrl-C), the run folder is left
+    usable and the interruption goes on to the caller. In a session with bodies in the scene, ``replaceScene`` says that
+    they may go; :class:`SceneError` otherwise. Errors name the key, body or file at fault.
+    """
+    import capfrac
+
+    capfrac.load_engines()
+    from yade import O
+
+    if not isinstance(case, dict):
+        case = readCase(case)
+    elif "name" not in case.get("case", {}):
+        case = resolveCase(case)
+    if len(O.bodies) and not replaceScene:
+        raise SceneError(f"the scene holds {len(O.bodies)} bodies; call O.reset() first, or inject(..., replaceScene=True) to let them go")
+    runFolder = RunFolder(folder, case, restart)
+    if runFolder.finished:
+        report(f"{runFolder.path} holds this run already, finished")
+        return runFolder.summary
+    O.reset()
+    run = Run(case, runFolder, report)
+    try:
+        run.begin()
+        run.finish(run.loop(bar))
+    except KeyboardInterrupt:
+        if run.gas is not None:
+            run.checkpoint()
+            runFolder.writeSummary(state="interrupted")
+        raise
+    except RuntimeError as problem:
+        if not isinstance(problem, CapfracError) and run.gas is not None:
+            runFolder.writeSummary(state="failed", error=str(problem))
+            raise SceneError(str(problem)) from problem
+        raise
+    return runFolder.summary

@@ -1,0 +1,324 @@
+"""Make a sediment: draw grains, let them settle, bring the box to a stress state, bond the contacts.
+
+Each step works on YADE's current scene, so a script can stop between any two of them, look, and go on::
+
+    from capfrac import sediment
+    sample = sediment.Sediment(grainCount=300, rMin=1e-3, seed=1)
+    sediment.makeSample(sample, stressV=10e3, stressH=8e3)
+    sediment.bond(capillaryStrength=10 * 0.05)
+
+Grains are disks of thickness w = 1 m with stiffnesses that do not depend on their size (Jain & Juanes 2008,
+Eqs. 1-4). The walls are smooth unless told otherwise, so that the stresses in the sample are uniform.
+"""
+
+import csv
+import math
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from capfrac.errors import CaseError, SampleError, SceneError
+
+#: Damping (YADE's local, non-viscous damping) while grains settle and while they are brought to rest [-].
+SETTLING_DAMPING, RESTING_DAMPING = 0.4, 0.7
+#: Time step over sqrt(m_min/k_n) [-]. Stable up to about 1 for a grain with four contacts (their stiffnesses add up
+#: to 4 k_n, and leap-frog diverges at dt = 2/omega); a third leaves room for more contacts and for the fluids.
+TIME_STEP_SHARE = 0.3
+#: Weight of the settling column over k_n, as an overlap in radii [-]: see :func:`settle`.
+SETTLING_OVERLAP = 3e-4
+
+
+@dataclass
+class Sediment:
+    """Grains and contacts of a sample, all SI. Raises :class:`CaseError` where a value is impossible."""
+
+    grainCount: int = 300  #: number of grains [-], >= 1
+    rMin: float = 1e-3  #: smallest radius [m], > 0
+    rMax: float | None = None  #: largest radius [m], >= rMin; default 2 rMin, as in the paper's invasion tests
+    seed: int = 1  #: of all random numbers [-], >= 0
+    density: float = 2650.0  #: of the grains [kg/m^3], > 0
+    normalStiffness: float = 1e7  #: k_n [N/m], > 0
+    shearStiffness: float | None = None  #: k_s [N/m], >= 0; default k_n, as in the paper
+    friction: float = 0.5  #: coefficient of friction between grains [-], >= 0
+    wallFriction: float = 0.0  #: coefficient of friction between grains and walls [-], >= 0
+    aspect: float = 1.0  #: height over width of the settled sample, about [-], > 0
+
+    def __post_init__(self):
+        if self.rMax is None:
+            self.rMax = 2 * self.rMin
+        if self.shearStiffness is None:
+            self.shearStiffness = self.normalStiffness
+        positive = ["grainCount", "rMin", "rMax", "density", "normalStiffness", "aspect"]
+        for field in fields(self):
+            value = getattr(self, field.name)
+            good = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+            if not good or value < 0 or (field.name in positive and value == 0):
+                allowed = "a finite number > 0" if field.name in positive else "a finite number >= 0"
+                raise CaseError(f"{field.name} = {value!r}, allowed: {allowed}")
+        if self.rMax < self.rMin:
+            raise CaseError(f"rMax = {self.rMax} m, allowed: >= rMin = {self.rMin} m")
+        for name in ("grainCount", "seed"):
+            if int(getattr(self, name)) != getattr(self, name):
+                raise CaseError(f"{name} = {getattr(self, name)}, allowed: whole numbers")
+            setattr(self, name, int(getattr(self, name)))
+
+
+def drawRadii(sample):
+    """Radii [m], uniform in [rMin, rMax], from the sample's seed."""
+    return np.random.default_rng(sample.seed).uniform(sample.rMin, sample.rMax, sample.grainCount)
+
+
+def placeGrains(sample, radii):
+    """Loose random positions for grains about to settle.
+
+    The grains lie on a grid wide enough that none touch, each moved at random within its square, rows filled from
+    the bottom. Returns ``(x, y, width, height)`` [m] with the box's lower left corner in the origin.
+    """
+    solid = math.pi * float(np.sum(radii**2))
+    # 0.84: share of solids in a settled pack of disks; only the shape of the box depends on it.
+    width = max(math.sqrt(solid / 0.84 / sample.aspect), 4 * sample.rMax)
+    pitch = 2.3 * sample.rMax
+    columns = max(1, int(width / pitch))
+    pitchX = width / columns
+    rng = np.random.default_rng([sample.seed, 1])
+    k = np.arange(len(radii))
+    x = (k % columns + 0.5) * pitchX + rng.uniform(-1, 1, len(radii)) * (0.5 * pitchX - 1.01 * radii)
+    y = (k // columns + 0.5) * pitch + rng.uniform(-1, 1, len(radii)) * (0.5 * pitch - 1.01 * radii)
+    return x, y, width, pitch * math.ceil(len(radii) / columns)
+
+
+def readPacking(path):
+    """A packing of the user's own: CSV with the columns x, y, r [m]. Returns arrays ``(x, y, r)``.
+
+    Raises :class:`CaseError` naming the line and what is wrong with it.
+    """
+    rows = []
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            reader = csv.DictReader(line for line in stream if not line.lstrip().startswith("#"))
+            header = [name.strip() for name in reader.fieldnames or []]
+            if not {"x", "y", "r"} <= set(header):
+                raise CaseError(f"{path}: columns {header}, needed: x, y, r (in metres)")
+            reader.fieldnames = header
+            for number, row in enumerate(reader, start=1):
+                try:
+                    x, y, r = (float(row[name]) for name in ("x", "y", "r"))
+                except (TypeError, ValueError):
+                    raise CaseError(f"{path}: grain {number} is {dict(row)}, needed: three numbers x, y, r") from None
+                if not all(map(math.isfinite, (x, y, r))) or r <= 0:
+                    raise CaseError(f"{path}: grain {number} has x = {x}, y = {y}, r = {r}; allowed: finite, r > 0")
+                rows.append((x, y, r))
+    except OSError as problem:
+        raise CaseError(f"the packing {path} cannot be read: {problem.strerror}") from None
+    if not rows:
+        raise CaseError(f"{path}: holds no grains")
+    return tuple(np.array(rows).T)
+
+
+def buildScene(sample, x, y, radii, box):
+    """Fill YADE's empty scene with disks and four walls, engines for dry grains and a safe time step.
+
+    ``box`` is (left, right, bottom, top) [m]. The labels ``bonds`` (contact functor), ``servo`` (wall servo, dead) and
+    ``newton`` are set. Raises :class:`SceneError` when the scene holds bodies already.
+    """
+    from yade import O, Sphere, utils
+    from yade.wrapper import (Bo1_Sphere_Aabb, Bo1_Wall_Aabb, DiskMat, ForceResetter, Ig2_Sphere_Sphere_ScGeom6D,
+                              Ig2_Wall_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop,
+                              Ip2_DiskMat_DiskMat_CohFrictPhys, Ip2_DiskMat_WallMat_CohFrictPhys,
+                              Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+                              NewtonIntegrator, WallMat, WallServoEngine)
+
+    if len(O.bodies) > 0:
+        raise SceneError(f"the scene holds {len(O.bodies)} bodies already; call O.reset() first if they are not needed")
+    left, right, bottom, top = box
+    grainMat = DiskMat(density=sample.density, frictionAngle=math.atan(sample.friction), label="grains",
+                       normalStiffness=sample.normalStiffness, shearStiffness=sample.shearStiffness)
+    wallMat = WallMat(frictionAngle=math.atan(sample.wallFriction), normalStiffness=sample.normalStiffness,
+                      shearStiffness=sample.shearStiffness, label="walls")
+    O.materials.append([grainMat, wallMat])
+    for axis, position in ((0, left), (0, right), (1, bottom), (1, top)):
+        O.bodies.append(utils.wall(position, axis=axis, material="walls"))
+    for xi, yi, ri in zip(x, y, radii):
+        body = utils.sphere((float(xi), float(yi), 0.0), float(ri), material="grains")
+        body.state.mass = math.pi * ri**2 * sample.density  # a disk of thickness 1 m, not a ball
+        body.state.inertia = (1.0, 1.0, 0.5 * body.state.mass * ri**2)
+        body.state.blockedDOFs = "zXY"
+        O.bodies.append(body)
+    O.engines = [
+        ForceResetter(),
+        InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * sample.rMin, label="collider"),
+        InteractionLoop([Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Wall_Sphere_ScGeom6D()],
+                        [Ip2_DiskMat_DiskMat_CohFrictPhys(label="bonds"), Ip2_DiskMat_WallMat_CohFrictPhys()],
+                        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]),
+        WallServoEngine(dead=True, label="servo"),
+        NewtonIntegrator(damping=SETTLING_DAMPING, label="newton"),
+    ]
+    smallestMass = math.pi * float(np.min(radii)) ** 2 * sample.density
+    O.dt = TIME_STEP_SHARE * math.sqrt(smallestMass / sample.normalStiffness)
+
+
+def engine(label):
+    """The engine or functor of the current scene with that label; :class:`SceneError` where there is none."""
+    from yade import O
+
+    for candidate in O.engines:
+        if getattr(candidate, "label", "") == label:
+            return candidate
+        for dispatcher in ("geomDispatcher", "physDispatcher", "lawDispatcher"):
+            for functor in getattr(getattr(candidate, dispatcher, None), "functors", []):
+                if functor.label == label:
+                    return functor
+    raise SceneError(f"the scene has no engine with the label '{label}'; make the sample with capfrac.sediment.buildScene")
+
+
+def _grains():
+    from yade import O, Sphere
+
+    return [body for body in O.bodies if isinstance(body.shape, Sphere)]
+
+
+def settle(sample, unbalanced=0.01, maxSteps=400_000, progress=None):
+    """Let the grains fall and come to rest, then lower the top wall onto them.
+
+    Gravity here is a tool, not a load: it is set to ``SETTLING_OVERLAP * k_n / (2 rho H)``, so that the lowest grains
+    overlap by that share of their radius whatever the grain size. A pack of 1 um and one of 1 mm with the same
+    seed then have the same shape, as they should: settling without cohesion knows no length but the grain's.
+    Ends when the mean resultant force on the grains is below ``unbalanced`` times the mean contact force.
+    Raises :class:`SampleError` when ``maxSteps`` do not suffice.
+    """
+    from yade import O, utils
+
+    newton = engine("newton")
+    newton.damping = SETTLING_DAMPING
+    grains = _grains()
+    solid = math.pi * sum(body.shape.radius**2 for body in grains)
+    walls = wallBodies()
+    width = walls["right"].state.pos[0] - walls["left"].state.pos[0]
+    column = solid / 0.84 / width
+    newton.gravity = (0, -SETTLING_OVERLAP * sample.normalStiffness / (2 * sample.density * column), 0)
+    _runUntil(lambda: O.iter > 2000 and utils.unbalancedForce() < unbalanced and _touching(len(grains)), maxSteps, 1000,
+              f"the grains did not come to rest: unbalanced force {{unbalanced}} after {maxSteps} steps, wanted {unbalanced}",
+              progress, "settling")
+    newton.gravity = (0, 0, 0)
+    top = max(body.state.pos[1] + body.shape.radius for body in grains)
+    walls["top"].state.pos = (0, top, 0)
+
+
+def _touching(nGrains):
+    from yade import O
+
+    # At rest in free fall the unbalanced force is undefined, not small: ask for contacts, too.
+    return O.interactions.countReal() > nGrains
+
+
+def _runUntil(done, maxSteps, chunk, complaint, progress, label):
+    from yade import O, utils
+
+    for step in range(0, maxSteps, chunk):
+        O.run(chunk, True)
+        if progress:
+            progress(label, utils.unbalancedForce())
+        if done():
+            return
+    raise SampleError(complaint.format(unbalanced=utils.unbalancedForce()))
+
+
+def wallBodies():
+    """The four walls of the current scene by name: left, right, bottom, top."""
+    from yade import O, Wall
+
+    walls = [body for body in O.bodies if isinstance(body.shape, Wall)]
+    named = {}
+    for axis, names in ((0, ("left", "right")), (1, ("bottom", "top"))):
+        pair = sorted((body for body in walls if body.shape.axis == axis), key=lambda body: body.state.pos[axis])
+        if len(pair) != 2:
+            raise SceneError(f"the scene has {len(pair)} walls of axis {axis}, needed: two of axis 0 and two of axis 1")
+        named.update(zip(names, pair))
+    return named
+
+
+def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxSteps=1_000_000, progress=None):
+    """Bring the box to the effective stresses ``stressV`` (vertical) and ``stressH`` (horizontal) [Pa], > 0.
+
+    The bottom stays, the other walls move. Done when every wall is within ``tolerance`` (relative) of its target and
+    the grains are at rest (``unbalanced``, as in :func:`settle`). Raises :class:`SampleError` with the stresses that
+    were reached when ``maxSteps`` do not suffice, :class:`CaseError` when the targets are out of range: a stress that
+    would press contacts of the largest grains in by more than a tenth of the smallest radius is beyond the model.
+    """
+    from yade import O, utils
+
+    for name, value in (("stressV", stressV), ("stressH", stressH)):
+        if not (math.isfinite(value) and value > 0):
+            raise CaseError(f"{name} = {value} Pa, allowed: > 0")
+        overlap = value * 2 * sample.rMax / sample.normalStiffness
+        if overlap > 0.1 * sample.rMin:
+            limit = 0.05 * sample.normalStiffness * sample.rMin / sample.rMax
+            raise CaseError(f"{name} = {value:g} Pa is out of reach: contacts of stiffness {sample.normalStiffness:g} N/m would "
+                            f"overlap by {overlap / sample.rMin:.2g} of the smallest radius; allowed: up to {limit:g} Pa, "
+                            "or a larger normalStiffness")
+    newton, servo = engine("newton"), engine("servo")
+    newton.damping, newton.gravity = RESTING_DAMPING, (0, 0, 0)
+    servo.stressX, servo.stressY = stressH, stressV
+    servo.maxVelocity = 5e-4 * sample.rMin / O.dt  # a wall overtakes no grain: they answer within some ten steps
+    servo.gain = 0.3
+    servo.dead = False
+    try:
+        _runUntil(lambda: servo.error < tolerance and utils.unbalancedForce() < unbalanced, maxSteps, 1000,
+                  "UNREACHED", progress, "compressing")
+    except SampleError:
+        left, right, bottom, top = servo.stress
+        raise SampleError(
+            f"the walls did not come to sigma_V = {stressV:g} Pa, sigma_H = {stressH:g} Pa within {maxSteps} steps: "
+            f"left {left:.4g}, right {right:.4g}, bottom {bottom:.4g}, top {top:.4g} Pa, unbalanced force "
+            f"{utils.unbalancedForce():.2g} (allowed {unbalanced:g})") from None
+
+
+def relax(unbalanced=1e-4, maxSteps=400_000, progress=None):
+    """Let the grains come to rest under the walls' stresses, then stop what still moves.
+
+    Grains without a loaded contact (rattlers) feel no force, hence no damping: they would drift through their pore
+    for ever with the speed they happen to have. Raises :class:`SampleError` when ``maxSteps`` do not suffice.
+    """
+    from yade import utils
+
+    _runUntil(lambda: utils.unbalancedForce() < unbalanced, maxSteps, 500,
+              f"the grains did not come to rest: unbalanced force {{unbalanced}} after {maxSteps} steps, wanted {unbalanced}",
+              progress, "relaxing")
+    for body in _grains():
+        body.state.vel = body.state.angVel = (0, 0, 0)
+
+
+def bond(capillaryStrength=0.0, tensileStrength=0.0, shearStrength=0.0):
+    """Bond all contacts of the scene as it is now; returns the number of bonds.
+
+    Strengths as in ``DiskMat``: sigma_c = tensileStrength + capillaryStrength / r [Pa], tau_c likewise (Eq. 5).
+    ``capillaryStrength`` [N/m] is chi gamma; the paper takes chi = 10. Raises :class:`CaseError` when one is negative.
+    """
+    from yade import O
+
+    for name, value in (("capillaryStrength", capillaryStrength), ("tensileStrength", tensileStrength), ("shearStrength", shearStrength)):
+        if not (math.isfinite(value) and value >= 0):
+            raise CaseError(f"{name} = {value}, allowed: >= 0")
+    for material in {id(body.material): body.material for body in _grains()}.values():
+        material.capillaryStrength = capillaryStrength
+        material.tensileStrength = tensileStrength
+        material.shearStrength = shearStrength
+    return engine("bonds").bondContacts()
+
+
+def makeSample(sample, stressV, stressH, packing=None, progress=None):
+    """Grains at rest in a box under the requested stresses, from nothing or from a packing (see :func:`readPacking`).
+
+    A packing is put into the smallest box that holds it and goes straight to :func:`compress`.
+    """
+    if packing is None:
+        radii = drawRadii(sample)
+        x, y, width, height = placeGrains(sample, radii)
+        buildScene(sample, x, y, radii, (0, width, 0, height))
+        settle(sample, progress=progress)
+    else:
+        x, y, radii = packing
+        box = (np.min(x - radii), np.max(x + radii), np.min(y - radii), np.max(y + radii))
+        buildScene(sample, x, y, radii, tuple(map(float, box)))
+    compress(sample, stressV, stressH, progress=progress)
+    relax(progress=progress)

@@ -1,0 +1,313 @@
+/// invasion/Drainage: event by event against an oracle that rescans everything after every invasion.
+
+#include "Samples.hpp"
+#include "fluids/EntryPressure.hpp"
+#include "geometry/VoidGeometry.hpp"
+#include "invasion/Drainage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace capfrac {
+
+namespace {
+
+	using samples::oblong;
+	using samples::Random;
+
+	bool operatesBefore(const Throat& a, const Throat& b)
+	{
+		if (a.entryPressure != b.entryPressure) return a.entryPressure < b.entryPressure;
+		return a.position.x != b.position.x ? a.position.x < b.position.x : a.position.y < b.position.y;
+	}
+
+	/// Water with a way out, by passing the news along all throats until there is none.
+	std::vector<std::uint8_t> waterWithOutlet(const DrainageNetwork& network)
+	{
+		std::vector<std::uint8_t> free(network.gas.size());
+		for (std::size_t d = 0; d < free.size(); ++d)
+			free[d] = network.outlet[d] && !network.gas[d];
+		for (bool changed = true; changed;) {
+			changed = false;
+			for (const Throat& t : network.throats) {
+				if (network.gas[t.left] || network.gas[t.right] || free[t.left] == free[t.right]) continue;
+				free[t.left] = free[t.right] = 1;
+				changed                      = true;
+			}
+		}
+		return free;
+	}
+
+	/// The domain that injected gas enters through the throat, -1 if there is none.
+	int entered(const DrainageNetwork& network, const Throat& t)
+	{
+		if (network.injected[t.left] && !network.gas[t.right]) return t.right;
+		if (network.injected[t.right] && !network.gas[t.left]) return t.left;
+		return -1;
+	}
+
+	Drainage drainByRescanning(DrainageNetwork network, double capillaryPressure, bool trapping)
+	{
+		Drainage drainage;
+		for (;;) {
+			const auto free = waterWithOutlet(network);
+			int        next = -1;
+			for (int t = 0; t < static_cast<int>(network.throats.size()); ++t) {
+				const Throat& throat = network.throats[t];
+				const int     domain = entered(network, throat);
+				if (domain < 0 || throat.entryPressure > capillaryPressure || (trapping && !free[domain])) continue;
+				if (next < 0 || operatesBefore(throat, network.throats[next])) next = t;
+			}
+			if (next < 0) {
+				for (std::size_t d = 0; trapping && d < free.size(); ++d)
+					if (!network.gas[d] && !free[d]) drainage.trapped.push_back(static_cast<int>(d));
+				return drainage;
+			}
+			const int domain = entered(network, network.throats[next]);
+			drainage.steps.push_back({ next, domain });
+			network.gas[domain] = network.injected[domain] = 1;
+		}
+	}
+
+	/// A network with several throats between the same domains, equal entry pressures, gas cut off from
+	/// the inlet, and parts without any outlet.
+	DrainageNetwork randomNetwork(Random& random)
+	{
+		const int       nDomains = 2 + random.below(60);
+		DrainageNetwork network;
+		for (auto* flags : { &network.gas, &network.injected, &network.outlet })
+			flags->assign(nDomains, 0);
+		const int nThroats = nDomains + random.below(2 * nDomains);
+		for (int t = 0; t < nThroats; ++t) {
+			const int left = random.below(nDomains), right = (left + 1 + random.below(std::min(4, nDomains - 1))) % nDomains;
+			network.throats.push_back({ t, left, right, 10.0 * (1 + random.below(30)), { random.uniform(0, 1), random.uniform(0, 1) } });
+		}
+		for (int d = 0; d < nDomains; ++d) {
+			network.gas[d]    = random.chance(0.15);
+			network.outlet[d] = random.chance(0.1);
+		}
+		std::vector<std::uint8_t> seed(nDomains, 0);
+		seed[random.below(nDomains)] = 1;
+		network.gas[std::find(seed.begin(), seed.end(), 1) - seed.begin()] = 1;
+		network.injected                                                   = connectedGas(network, seed);
+		return network;
+	}
+
+	/// The pores of a packing: gas in the domain at the middle of the bottom, outlets along the top.
+	DrainageNetwork packingNetwork(Random& random, int nGrains)
+	{
+		const auto          grains = samples::packedSample(random, nGrains, oblong, 1.67);
+		const auto          mesh   = triangulate(grains, oblong);
+		std::vector<double> gaps;
+		for (const Edge& e : mesh.edges)
+			gaps.push_back(gap(mesh, e.a, e.b, grains, oblong));
+		std::vector<std::uint8_t> open(gaps.size(), freshEdge);
+		updateOpenEdges(open, gaps, 0, 0);
+		const auto domains = findDomains(mesh, open, std::vector<Phase>(mesh.cells.size(), Phase::water), PoreMode::domain);
+
+		DrainageNetwork network;
+		for (auto* flags : { &network.gas, &network.injected, &network.outlet })
+			flags->assign(domains.count, 0);
+		for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
+			const Edge& e    = mesh.edges[i];
+			const int   left = domains.ofCell[e.left], right = domains.ofCell[e.right];
+			if (mesh.isWall(e.b) && mesh.wallOf(e.b) == wallTop) network.outlet[left] = network.outlet[right] = 1;
+			if (left == right) continue;
+			// At a wall the grain meets its mirror image.
+			const double r      = mesh.isWall(e.b) ? grains[e.a].radius : 0.5 * (grains[e.a].radius + grains[e.b].radius);
+			const double d      = mesh.isWall(e.b) ? 2 * gaps[i] : gaps[i];
+			const Vec2   middle = 0.5 * (cellCentre(mesh, e.left, grains, oblong) + cellCentre(mesh, e.right, grains, oblong));
+			network.throats.push_back({ static_cast<int>(i), left, right, entryPressure(EntryLaw::inscribedSphere, d, r, 0.05, 0), middle });
+		}
+		const Vec2 inlet { 3, oblong.bottom };
+		int        nearest = 0;
+		for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c)
+			if (norm(cellCentre(mesh, c, grains, oblong) - inlet) < norm(cellCentre(mesh, nearest, grains, oblong) - inlet)) nearest = c;
+		network.gas[domains.ofCell[nearest]] = network.injected[domains.ofCell[nearest]] = 1;
+		return network;
+	}
+
+	std::vector<std::pair<int, int>> pairs(const std::vector<DrainageStep>& steps)
+	{
+		std::vector<std::pair<int, int>> result;
+		for (const auto& step : steps)
+			result.emplace_back(step.throat, step.domain);
+		return result;
+	}
+
+	void fill(DrainageNetwork& network, const Drainage& drainage)
+	{
+		for (const auto& step : drainage.steps)
+			network.gas[step.domain] = network.injected[step.domain] = 1;
+	}
+
+	void expectNoStepTooEarly(const DrainageNetwork& network, const Drainage& drainage, double capillaryPressure)
+	{
+		for (const auto& step : drainage.steps)
+			EXPECT_LE(network.throats[step.throat].entryPressure, capillaryPressure);
+	}
+
+	/// Entry pressures from the lowest to the highest, every `stride`-th, one below all and one above.
+	std::vector<double> levels(const DrainageNetwork& network, int stride)
+	{
+		std::vector<double> all { 0, 1e9 };
+		for (std::size_t t = 0; t < network.throats.size(); t += stride)
+			all.push_back(network.throats[t].entryPressure);
+		std::sort(all.begin(), all.end());
+		return all;
+	}
+
+	/// Returns how many domains were trapped in all.
+	int expectOracle(const DrainageNetwork& network, int stride)
+	{
+		int nTrapped = 0;
+		for (double pressure : levels(network, stride))
+			for (bool trapping : { false, true }) {
+				const auto found = drain(network, pressure, trapping), expected = drainByRescanning(network, pressure, trapping);
+				EXPECT_EQ(pairs(found.steps), pairs(expected.steps)) << "at " << pressure << " Pa, trapping " << trapping;
+				EXPECT_EQ(found.trapped, expected.trapped) << "at " << pressure << " Pa, trapping " << trapping;
+				expectNoStepTooEarly(network, found, pressure);
+				nTrapped += static_cast<int>(found.trapped.size());
+			}
+		return nTrapped;
+	}
+
+	/// Domain d becomes domainOf[d]; throat throatFrom[t] becomes throat t, its sides swapped by chance.
+	DrainageNetwork relabelled(
+	        const DrainageNetwork& network, const std::vector<int>& domainOf, const std::vector<int>& throatFrom, Random& random)
+	{
+		DrainageNetwork result = network;
+		for (std::size_t d = 0; d < domainOf.size(); ++d) {
+			result.gas[domainOf[d]]      = network.gas[d];
+			result.injected[domainOf[d]] = network.injected[d];
+			result.outlet[domainOf[d]]   = network.outlet[d];
+		}
+		for (std::size_t t = 0; t < throatFrom.size(); ++t) {
+			Throat throat = network.throats[throatFrom[t]];
+			throat.left   = domainOf[throat.left];
+			throat.right  = domainOf[throat.right];
+			if (random.chance(0.5)) std::swap(throat.left, throat.right);
+			result.throats[t] = throat;
+		}
+		return result;
+	}
+
+	void expectNumberingIrrelevant(const DrainageNetwork& network, double pressure, Random& random)
+	{
+		const auto domainOf   = random.permutation(static_cast<int>(network.gas.size()));
+		const auto throatFrom = random.permutation(static_cast<int>(network.throats.size()));
+		const auto other      = relabelled(network, domainOf, throatFrom, random);
+		EXPECT_EQ(nextEntryPressure(network), nextEntryPressure(other));
+		for (bool trapping : { false, true }) {
+			const auto                       plain = drain(network, pressure, trapping), mixed = drain(other, pressure, trapping);
+			std::vector<std::pair<int, int>> steps;
+			for (const auto& step : mixed.steps)
+				steps.emplace_back(throatFrom[step.throat], static_cast<int>(std::find(domainOf.begin(), domainOf.end(), step.domain) - domainOf.begin()));
+			EXPECT_EQ(steps, pairs(plain.steps));
+			EXPECT_EQ(mixed.trapped.size(), plain.trapped.size());
+		}
+	}
+
+} // namespace
+
+TEST(Drainage, AgreesWithRescanningOnRandomNetworks)
+{
+	int nTrapped = 0;
+	for (unsigned seed = 1; seed <= 500; ++seed) {
+		SCOPED_TRACE("seed " + std::to_string(seed));
+		Random random(seed);
+		nTrapped += expectOracle(randomNetwork(random), 8);
+	}
+	EXPECT_GT(nTrapped, 1000) << "the networks test nothing";
+}
+
+TEST(Drainage, AgreesWithRescanningOnPackings)
+{
+	int nTrapped = 0;
+	for (unsigned seed = 1; seed <= 8; ++seed) {
+		SCOPED_TRACE("seed " + std::to_string(seed));
+		Random random(seed);
+		nTrapped += expectOracle(packingNetwork(random, 80), 25);
+	}
+	EXPECT_GT(nTrapped, 100) << "the packings test nothing";
+}
+
+TEST(Drainage, NumberingDoesNotMatter)
+{
+	for (unsigned seed = 1; seed <= 200; ++seed) {
+		Random random(seed);
+		expectNumberingIrrelevant(randomNetwork(random), random.uniform(50, 300), random);
+	}
+	Random     random(1);
+	const auto network = packingNetwork(random, 80);
+	for (double pressure : levels(network, 40))
+		expectNumberingIrrelevant(network, pressure, random);
+}
+
+/// Raising the pressure in stages makes the same events in the same order as going there at once.
+TEST(Drainage, PathOfPressureDoesNotMatter)
+{
+	for (unsigned seed = 1; seed <= 100; ++seed)
+		for (bool trapping : { false, true }) {
+			Random                           random(seed);
+			const auto                       network = seed <= 95 ? randomNetwork(random) : packingNetwork(random, 60);
+			auto                             staged  = network;
+			std::vector<std::pair<int, int>> steps;
+			const auto                       stages = levels(network, 5);
+			for (double pressure : stages) {
+				const auto drainage = drain(staged, pressure, trapping);
+				fill(staged, drainage);
+				for (auto step : pairs(drainage.steps))
+					steps.push_back(step);
+			}
+			EXPECT_EQ(steps, pairs(drain(network, stages.back(), trapping).steps)) << "seed " << seed;
+		}
+}
+
+TEST(Drainage, NextEntryPressureIsWhereTheNextStepComes)
+{
+	for (unsigned seed = 1; seed <= 200; ++seed) {
+		Random random(seed);
+		auto   network = randomNetwork(random);
+		fill(network, drain(network, random.uniform(0, 200), false));
+		double lowest = std::numeric_limits<double>::infinity();
+		for (const Throat& t : network.throats)
+			if (entered(network, t) >= 0) lowest = std::min(lowest, t.entryPressure);
+		const double next = nextEntryPressure(network);
+		EXPECT_EQ(next, lowest);
+		EXPECT_TRUE(drain(network, std::nextafter(next, 0.0), false).steps.empty());
+		if (std::isfinite(next)) { EXPECT_FALSE(drain(network, next, false).steps.empty()); }
+	}
+	EXPECT_EQ(nextEntryPressure({ {}, { 1, 0 }, { 1, 0 }, { 0, 0 } }), std::numeric_limits<double>::infinity());
+}
+
+/// A ring 0-1-2-3 with gas in 0 and the outlet at 1: once 1 is full, 2 and 3 are cut off.
+TEST(Drainage, TrapsWhatLosesTheOutlet)
+{
+	const DrainageNetwork ring { { { 0, 0, 1, 10, {} }, { 1, 1, 2, 20, {} }, { 2, 2, 3, 20, {} }, { 3, 3, 0, 15, {} } },
+		                     { 1, 0, 0, 0 },
+		                     { 1, 0, 0, 0 },
+		                     { 0, 1, 0, 0 } };
+	const auto            trapping = drain(ring, 100, true);
+	EXPECT_EQ(pairs(trapping.steps), (std::vector<std::pair<int, int>> { { 0, 1 } }));
+	EXPECT_EQ(trapping.trapped, (std::vector<int> { 2, 3 }));
+	EXPECT_EQ(pairs(drain(ring, 100, false).steps), (std::vector<std::pair<int, int>> { { 0, 1 }, { 3, 3 }, { 1, 2 } }));
+	EXPECT_TRUE(drain(ring, 100, false).trapped.empty());
+	EXPECT_TRUE(drain(ring, 9.9, true).steps.empty());
+	EXPECT_EQ(drain(ring, 10, true).steps.size(), 1u) << "at the entry pressure, not above it";
+}
+
+TEST(ConnectedGas, EndsAtWater)
+{
+	const DrainageNetwork chain { { { 0, 0, 1, 1, {} }, { 1, 1, 2, 1, {} }, { 2, 2, 3, 1, {} }, { 3, 3, 4, 1, {} } },
+		                      { 1, 1, 0, 1, 0 },
+		                      {},
+		                      { 0, 0, 1, 0, 0 } };
+	EXPECT_EQ(connectedGas(chain, { 1, 0, 0, 0, 0 }), (std::vector<std::uint8_t> { 1, 1, 0, 0, 0 }));
+	EXPECT_EQ(connectedGas(chain, { 0, 0, 1, 0, 0 }), (std::vector<std::uint8_t> { 0, 0, 0, 0, 0 })) << "the inlet lies in water";
+	EXPECT_EQ(connectedWater(chain), (std::vector<std::uint8_t> { 0, 0, 1, 0, 0 }));
+}
+
+} // namespace capfrac
