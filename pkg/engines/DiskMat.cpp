@@ -18,6 +18,7 @@ void WallMat::postLoad(WallMat&)
 {
 	capfrac::requirePositive("WallMat.normalStiffness [N/m]", normalStiffness);
 	capfrac::requireNotNegative("WallMat.shearStiffness [N/m]", shearStiffness);
+	capfrac::requireNotNegative("WallMat.bondFactor [-]", bondFactor);
 }
 
 } // namespace yade

@@ -34,11 +34,11 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(WallMat,FrictMat,R"""(Material of the walls of the box. See :yref:`Ip2_DiskMat_WallMat_CohFrictPhys` for the contacts.
 
-The attribute ``frictionAngle`` [rad] is that between wall and grain; 0 gives a smooth wall, which carries no shear at all. A smooth wall that is
-:yref:`bonded<WallMat.bonded>` is a plane of symmetry: the sediment goes on behind it as its mirror image.)""",
+The attribute ``frictionAngle`` [rad] is that between wall and grain; 0 gives a smooth wall, which carries no shear at all. A smooth wall with
+bonds is a plane of symmetry: the sediment goes on behind it as its mirror image.)""",
 		((Real,normalStiffness,1e7,Attr::triggerPostLoad,"Normal stiffness of a contact with a grain [N/m], > 0."))
 		((Real,shearStiffness,1e7,Attr::triggerPostLoad,"Shear stiffness of a contact with a grain [N/m], >= 0; a smooth wall has none."))
-		((bool,bonded,true,,"Whether grains are bonded to the wall when contacts are bonded [-]. Without it gas lifts a cohesive sample off its floor before it opens it."))
+		((Real,bondFactor,100,Attr::triggerPostLoad,"Strength of a bond to the wall over that of a bond between grains [-], >= 0; 0: grains are not bonded to it. Large by default, because the wall is no part of the sample: gas shall part the sediment, not lift a cohesive sample off its floor."))
 		,
 		createIndex();
 	);

@@ -101,6 +101,7 @@ void GasInvasionEngine::startFluids()
 	findRattlers();
 	gasSaturation = saturation();
 	levelStart    = -1;
+	noteBreakthrough(); // an inlet may reach the outlet from the start
 }
 
 // --- the avalanche --------------------------------------------------------------------------------

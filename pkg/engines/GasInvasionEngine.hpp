@@ -19,6 +19,7 @@ public:
 	boost::python::tuple pyInletStretch(int nPores, Real centre);
 	boost::python::list  pyBonds();
 	Real                 pyNextEntryPressure();
+	void                 pySetCellPressures(const std::vector<Real>& pressures) override;
 
 protected:
 	void advanceFluids() override;

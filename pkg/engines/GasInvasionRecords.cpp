@@ -125,7 +125,7 @@ void GasInvasionEngine::postLoad(GasInvasionEngine&)
 	checkAttributes();
 	restore();
 	if (gasPressure < maxPressure) rampDone = false; // a ramp whose end was moved up goes on
-	if (savedStart.empty()) return;
+	if (savedStart.empty() || !startGrains.empty()) return;
 	startGrains.clear();
 	std::size_t k = 0;
 	for (; k + 4 < savedStart.size(); k += 3)
@@ -167,6 +167,11 @@ py::dict GasInvasionEngine::pyLevels()
 	d["displacementWithRattlers"] = withRattlers, d["unbalanced"] = unbalancedForce, d["atRest"] = atRest;
 	d["iteration"] = iteration, d["gasVolume"] = gasVolume;
 	return d;
+}
+
+void GasInvasionEngine::pySetCellPressures(const std::vector<Real>&)
+{
+	throw std::invalid_argument("setCellPressures: the pressures of this engine follow from gasPressure and waterPressure; use a PoreNetworkEngine");
 }
 
 py::list GasInvasionEngine::pyBonds()

@@ -22,12 +22,14 @@ namespace {
 		const auto* wall1 = dynamic_cast<const WallMat*>(&one);
 		const auto* wall2 = dynamic_cast<const WallMat*>(&other);
 		// A wall mirrors the grain, so the grain's own values and radius stand for both.
-		if ((wall1 && wall1->bonded) || (wall2 && wall2->bonded)) (wall1 ? m1 : m2) = wall1 ? m2 : m1;
+		const WallMat* wall   = wall1 ? wall1 : wall2;
+		const Real     factor = wall ? wall->bondFactor : 1;
+		if (wall) (wall1 ? m1 : m2) = wall1 ? m2 : m1;
 		if (!m1 || !m2) return {};
-		const Real width     = wall1 || wall2 ? 2 * math::max(geom.radius1, geom.radius2) : geom.radius1 + geom.radius2;
+		const Real width     = geom.radius1 + geom.radius2; // at a wall both are the grain's
 		const Real capillary = m1->capillaryStrength + m2->capillaryStrength; // over 2 r, times 2 r
-		return { width * math::min(m1->tensileStrength, m2->tensileStrength) + capillary,
-			 width * math::min(m1->shearStrength, m2->shearStrength) + capillary };
+		return { factor * (width * math::min(m1->tensileStrength, m2->tensileStrength) + capillary),
+			 factor * (width * math::min(m1->shearStrength, m2->shearStrength) + capillary) };
 	}
 
 	shared_ptr<CohFrictPhys> unbonded(Real kn, Real ks, Real frictionAngle)
@@ -71,6 +73,7 @@ int Ip2_DiskMat_DiskMat_CohFrictPhys::bondContacts()
 		const Strength strength = bondStrength(
 		        *Body::byId(interaction->getId1(), theScene)->material, *Body::byId(interaction->getId2(), theScene)->material, *geom);
 		if (strength.normal <= 0 && strength.shear <= 0) continue;
+		if (phys->ks > 0 && phys->shearForce.norm() > thickness * strength.shear) continue; // it would break at once
 		phys->normalAdhesion = thickness * strength.normal;
 		phys->shearAdhesion  = thickness * strength.shear;
 		phys->cohesionBroken = false;

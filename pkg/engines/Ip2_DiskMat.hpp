@@ -20,7 +20,7 @@ $\varphi_n = \sigma_c 2\bar r w$ and shear up to $\varphi_s = \tau_c 2\bar r w$ 
 The forces themselves are those of :yref:`Law2_ScGeom6D_CohFrictPhys_CohesionMoment`.)""",
 		((Real,thickness,1,,"Thickness $w$ of the assembly in the third dimension [m], > 0."))
 		,,
-		.def("bondContacts",&Ip2_DiskMat_DiskMat_CohFrictPhys::bondContacts,"Bond every contact of a grain (:yref:`DiskMat`) that exists now, with another grain or with a :yref:`bonded<WallMat.bonded>` wall. Contacts that are bonded already stay as they are. :return: number of new bonds [-]")
+		.def("bondContacts",&Ip2_DiskMat_DiskMat_CohFrictPhys::bondContacts,"Bond every contact of a grain (:yref:`DiskMat`) that exists now, with another grain or with a wall (see :yref:`WallMat.bondFactor`). Contacts that are bonded already stay as they are; a contact that carries more shear than its bond could is left frictional, since the bond would break at once. :return: number of new bonds [-]")
 	);
 	// clang-format on
 };

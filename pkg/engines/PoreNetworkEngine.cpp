@@ -126,6 +126,9 @@ bool PoreNetworkEngine::movedFar() const
 
 void PoreNetworkEngine::update()
 {
+	if (reader.scene && reader.scene != scene)
+		throw std::runtime_error(getClassName() + ": the engine follows the grains of another scene; make a new one for this scene");
+	reader.scene = scene;
 	if (reader.nBodies != scene->bodies->size()) {
 		if (reader.nBodies != 0)
 			throw std::runtime_error(
@@ -134,7 +137,7 @@ void PoreNetworkEngine::update()
 			        + "; bodies cannot be added or removed while an engine follows them");
 		reader.nBodies = scene->bodies->size(); // after loading
 	}
-	reader.read(*scene);
+	namingBodies(reader, [&] { reader.read(*scene); });
 	if (movedFar()) {
 		namingBodies(reader, [&] { capfrac::checkGrains(reader.grains, reader.box); });
 		if (!capfrac::isRegular(mesh, reader.grains, reader.box)) remesh();
@@ -209,7 +212,8 @@ void PoreNetworkEngine::preSave(PoreNetworkEngine&)
 
 void PoreNetworkEngine::restore()
 {
-	if (savedCells.empty()) return;
+	// YADE calls postLoad at assignments, too: only an engine that has no network yet takes up the saved one.
+	if (savedCells.empty() || prepared()) return;
 	const std::size_t n = savedIds.size() - capfrac::nWalls;
 	reader              = {};
 	reader.grainIds.assign(savedIds.begin(), savedIds.begin() + n);
@@ -239,6 +243,7 @@ void PoreNetworkEngine::postLoad(PoreNetworkEngine&)
 {
 	checkAttributes();
 	restore();
+	domains = {}; // poreMode and the tolerances may have changed: update() finds them anew
 }
 
 } // namespace yade

@@ -30,7 +30,7 @@ public:
 	boost::python::dict pyForces();
 	boost::python::dict pyVolumes();
 	void                pyPrepare();
-	void                pySetCellPressures(const std::vector<Real>& pressures);
+	virtual void        pySetCellPressures(const std::vector<Real>& pressures);
 
 protected:
 	/// Called once per step between the update of the network and the forces; the base has fixed pressures.

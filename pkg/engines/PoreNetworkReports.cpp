@@ -103,6 +103,9 @@ void PoreNetworkEngine::pySetCellPressures(const std::vector<Real>& pressures)
 		throw std::invalid_argument(
 		        "pressures: " + std::to_string(pressures.size()) + " values, allowed: one for each of the " + std::to_string(mesh.cells.size())
 		        + " cells");
+	for (std::size_t c = 0; c < pressures.size(); ++c)
+		if (!std::isfinite(pressures[c]))
+			throw std::invalid_argument("pressures: cell " + std::to_string(c) + " has " + std::to_string(pressures[c]) + " Pa, allowed: finite");
 	fixedPressures = pressures;
 }
 

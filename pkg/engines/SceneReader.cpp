@@ -33,11 +33,11 @@ std::string whenInLoop(const Scene& scene)
 	return text.str();
 }
 
-void SceneReader::find(const Scene& scene)
+void SceneReader::find(const Scene& from)
 {
 	std::vector<Body::id_t>                 foundGrains;
 	std::array<std::vector<const Body*>, 2> foundWalls;
-	for (const auto& body : *scene.bodies) {
+	for (const auto& body : *from.bodies) {
 		if (!body) continue;
 		if (body->isClump()) refuseBody(body->id, "is a clump; the network takes single disks only");
 		if (dynamic_cast<const Sphere*>(body->shape.get())) {
@@ -60,35 +60,41 @@ void SceneReader::find(const Scene& scene)
 		wallIds[2 * axis]     = walls[0]->id;
 		wallIds[2 * axis + 1] = walls[1]->id;
 	}
-	grainIds = std::move(foundGrains);
-	nBodies  = scene.bodies->size();
-	read(scene);
+	grainIds    = std::move(foundGrains);
+	scene       = &from;
+	nBodies     = from.bodies->size();
+	read(from);
 }
 
-void SceneReader::read(const Scene& scene)
+void SceneReader::read(const Scene& from)
 {
 	grains.resize(grainIds.size());
 	for (std::size_t i = 0; i < grainIds.size(); ++i) {
-		const auto& body = (*scene.bodies)[grainIds[i]];
+		const auto& body = (*from.bodies)[grainIds[i]];
 		if (!body) refuseBody(grainIds[i], "was a grain of the network and is gone");
 		const Vector3r& pos = body->state->pos;
-		grains[i]           = { { pos[0], pos[1] }, static_cast<const Sphere&>(*body->shape).radius };
+		const Real      radius = static_cast<const Sphere&>(*body->shape).radius;
+		// Contacts are three-dimensional, the network is not: off the plane they would disagree about gaps.
+		const Real plane = (*from.bodies)[grainIds[0]]->state->pos[2];
+		if (!(math::abs(pos[2] - plane) <= 1e-9 * radius))
+			refuseBody(grainIds[i], "is off the plane of the model: z = " + std::to_string(pos[2]) + " m, the first grain has z = " + std::to_string(plane) + " m");
+		grains[i] = { { pos[0], pos[1] }, radius };
 	}
 	std::array<Real, capfrac::nWalls> at;
 	for (int w = 0; w < capfrac::nWalls; ++w) {
-		const auto& body = (*scene.bodies)[wallIds[w]];
+		const auto& body = (*from.bodies)[wallIds[w]];
 		if (!body) refuseBody(wallIds[w], "was a wall of the box and is gone");
 		at[w] = body->state->pos[w / 2];
 	}
 	box = { at[0], at[1], at[2], at[3] };
 }
 
-void SceneReader::addForces(Scene& scene, const capfrac::FluidForces& forces, Real thickness) const
+void SceneReader::addForces(Scene& to, const capfrac::FluidForces& forces, Real thickness) const
 {
 	for (std::size_t i = 0; i < grainIds.size(); ++i)
-		scene.forces.addForce(grainIds[i], thickness * Vector3r(forces.grains[i].x, forces.grains[i].y, 0));
+		to.forces.addForce(grainIds[i], thickness * Vector3r(forces.grains[i].x, forces.grains[i].y, 0));
 	for (int w = 0; w < capfrac::nWalls; ++w)
-		scene.forces.addForce(wallIds[w], thickness * Vector3r(forces.walls[w].x, forces.walls[w].y, 0));
+		to.forces.addForce(wallIds[w], thickness * Vector3r(forces.walls[w].x, forces.walls[w].y, 0));
 }
 
 int SceneReader::vertexOf(Body::id_t id) const

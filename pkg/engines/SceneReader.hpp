@@ -22,15 +22,17 @@ struct SceneReader {
 	capfrac::Box                              box;
 
 	/// Finds grains and walls anew. Throws std::runtime_error naming the body at fault.
-	void find(const Scene& scene);
-	/// Reads positions and radii of the bodies found. Throws when one of them is gone or not finite.
-	void read(const Scene& scene);
+	void find(const Scene& from);
+	/// Reads positions and radii of the bodies found. Throws when one of them is gone or has left the plane.
+	void read(const Scene& from);
 	/// Adds forces [N/m, times `thickness`] to grains and walls.
-	void addForces(Scene& scene, const capfrac::FluidForces& forces, Real thickness) const;
+	void addForces(Scene& to, const capfrac::FluidForces& forces, Real thickness) const;
 	/// The vertex of a body; -1 where it is none.
 	int vertexOf(Body::id_t id) const;
 	/// The body of a vertex of the triangulation (grain or wall).
 	Body::id_t bodyOf(int vertex) const;
+	/// The scene that was read; to notice an engine that is asked about another one.
+	const Scene* scene = nullptr;
 	/// Number of bodies when find() ran, to notice a scene that changed.
 	std::size_t nBodies = 0;
 };

@@ -107,6 +107,7 @@ def _yade(arguments):
 
 
 def main(argv=None):
+    """Run the command; returns its exit status (see the module)."""
     arguments = _parser().parse_args(argv)
     try:
         if arguments.command == "inject":

@@ -55,19 +55,20 @@ def writeCollection(path, entries):
     """Write a ParaView collection (.pvd): which files belong to which physical time.
 
     ``entries`` are pairs (time [s], files); files is a path or a dict kind -> path as from :func:`writeFields`, whose
-    kinds become the parts of the data set. Paths are written relative to the collection, so the folder can be moved.
-    Raises :class:`CaseError` when there are no entries or times do not rise.
+    kinds become the parts of the data set. A bare file name is a file beside the collection. Paths are written relative
+    to the collection, so the folder can be moved. Entries are sorted by time; of several at one time the last counts.
+    Raises :class:`CaseError` when there are no entries.
     """
-    entries = list(entries)
-    times = [time for time, _ in entries]
-    if not entries or any(later <= earlier for earlier, later in zip(times, times[1:])):
-        raise CaseError(f"{path}: the entries have the times {times}, allowed: at least one, each later than the one before")
+    entries = dict(entries)
+    if not entries:
+        raise CaseError(f"{path}: no entries, allowed: at least one pair of a time and its files")
+    folder = os.path.dirname(os.path.abspath(path))
     root = ElementTree.Element("VTKFile", type="Collection", version="0.1")
     collection = ElementTree.SubElement(root, "Collection")
-    for time, files in entries:
+    for time, files in sorted(entries.items()):
         files = files if isinstance(files, dict) else {"": files}
         for part, (kind, file) in enumerate(files.items()):
-            relative = os.path.relpath(file, os.path.dirname(os.path.abspath(path))).replace(os.sep, "/")
+            relative = (os.path.relpath(file, folder) if os.path.dirname(file) else os.fspath(file)).replace(os.sep, "/")
             ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), group="", part=str(part), name=kind, file=relative)
     ElementTree.indent(root)
     ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)

@@ -41,9 +41,10 @@ def drawSnapshot(snapshot, path, title=None, width=4.6, forces=True, bonds=True,
 
 
 def drawPair(snapshots, path, titles=None, width=3.6, forces=True, bonds=True, dots=True, forceScale=None):
-    """Draw snapshots side by side with one scale of lengths' unit and of forces, as in Figures 15 and 16.
+    """Draw snapshots side by side with one scale of lengths and one of forces, as in Figures 15 and 16.
 
-    Any number of snapshots >= 1; ``titles`` as many, or None. The rest as in :func:`drawSnapshot`.
+    Any number of snapshots >= 1; ``titles`` as many, or None. The rest as in :func:`drawSnapshot`. Samples of different
+    size (one more than twice as wide as another) are drawn each to its own scales, and the key then gives no force.
     """
     snapshots = list(snapshots)
     titles = [None] * len(snapshots) if titles is None else list(titles)
@@ -58,22 +59,23 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
     ``levels`` and ``events`` are the dicts of ``gas.levels()`` and ``gas.events()``. The second panel shows the share of
     the invaded throats that had opened (with ``events``) and broken bonds, as a share of ``bondCount`` where that is
     given. Pressures are those of the engine [Pa]; ``waterPressure`` is taken off. Hollow marks are levels that ended
-    before the grains were at rest. Raises :class:`CaseError` when no level is finished.
+    before the grains were at rest. Without a finished level the panels stay empty: a run may end within its first.
     """
-    if len(levels["pressure"]) == 0:
-        raise CaseError("levels holds no finished pressure level, allowed: at least one")
-    power, unit = max((power, unit) for power, unit in ((0, "Pa"), (3, "kPa"), (6, "MPa")) if power == 0 or max(levels["pressure"]) >= 10.0**power)
+    highest = max(levels["pressure"], default=0.0) - waterPressure
+    power, unit = max((power, unit) for power, unit in ((0, "Pa"), (3, "kPa"), (6, "MPa")) if power == 0 or highest >= 10.0**power)
     pressure = (np.array(levels["pressure"], dtype=float) - waterPressure) / 10.0**power
     breakthrough = (breakthroughPressure - waterPressure) / 10.0**power
     fill = [COLOURS["dot"] if rest else "white" for rest in levels["atRest"]]
 
     with _figure((9.6, 3.1)) as figure:
-        curve, opening, moving = figure.subplots(1, 3, gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.165, "top": 0.89 if title else 0.95, "wspace": 0.33})
+        grid = {"left": 0.065, "right": 0.985, "bottom": 0.165, "top": 0.89 if title else 0.95, "wspace": 0.33}
+        curve, opening, moving = figure.subplots(1, 3, gridspec_kw=grid)
         curve.plot(levels["gasSaturation"], pressure, color=COLOURS["gas"], linewidth=1.2, zorder=2)
         curve.scatter(levels["gasSaturation"], pressure, s=9, c=fill, edgecolors=COLOURS["dot"], linewidths=0.7, zorder=3, clip_on=False)
         curve.set(xlabel="gas saturation $S_g$", ylabel=f"capillary pressure $P_c$ [{unit}]", xlim=(0, 1))
 
         share = bondCount or 1
+        shown = pressure
         bondLabel = "broken bonds / bonds" if bondCount else "broken bonds"
         opening.plot(pressure, np.array(levels["brokenBonds"]) / share, color=COLOURS["broken"], linewidth=1.4, label=bondLabel)
         if events is not None and len(events["opened"]):
@@ -82,8 +84,10 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
             last = len(events["opened"]) - last
             at, opened = (at - waterPressure) / 10.0**power, np.cumsum(events["opened"])[last - 1]
             axes = opening if bondCount else opening.twinx()
-            line = axes.plot(at, opened / last, color=COLOURS["dot"], linewidth=1.4, drawstyle="steps-post", label="opened / invaded throats")
+            line = axes.plot(at, opened / last, color=COLOURS["dot"], linewidth=1.4, drawstyle="steps-post", marker="o", markersize=2.5,
+                             label="opened / invaded throats")
             axes.set_ylim(-0.03, 1.03)
+            shown = np.append(pressure, at)
             if not bondCount:
                 axes.set_ylabel("share of the invaded throats")
                 opening.plot([], [], color=line[0].get_color(), linewidth=1.4, label="opened / invaded throats")
@@ -96,11 +100,11 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
             moving.plot(pressure, np.where(values > 0, values, np.nan), linestyle=line, color=colour, linewidth=1.4, label=label)
         moving.set(yscale="log", ylabel="largest displacement / radius")
         low, high = (math.log10(v) for v in moving.get_ylim())
-        moving.set_ylim(10.0 ** math.floor(low), 10.0 ** math.ceil(high))  # whole decades, to be read at a glance
+        moving.set_ylim(10.0 ** math.floor(low), 10.0 ** max(math.ceil(high), math.floor(low) + 1))  # whole decades
         moving.legend(fontsize=7, frameon=False, loc="best")
 
         for axes in (opening, moving):
-            axes.set(xlabel=f"capillary pressure $P_c$ [{unit}]", xlim=_rangeOf(pressure))
+            axes.set(xlabel=f"capillary pressure $P_c$ [{unit}]", xlim=_rangeOf(shown))
         if math.isfinite(breakthrough):
             marker = {"color": "0.45", "linewidth": 0.9, "linestyle": (0, (4, 3)), "zorder": 1}
             curve.axhline(breakthrough, **marker)
@@ -118,6 +122,8 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
 
 
 def _rangeOf(values):
+    if len(values) == 0:
+        return 0.0, 1.0
     low, high = float(np.min(values)), float(np.max(values))
     rim = 0.03 * (high - low) or 0.03 * abs(high) or 1.0
     return low - rim, high + rim
@@ -142,24 +148,25 @@ def quantity(value, unit, digits=3):
 
 
 def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale):
-    scale = forceScale or forceScaleOf(*snapshots)
     # Everything in inches: rims around the samples, and room for title, scale bar and legend outside of them. One scale
-    # of lengths for all panels, so that a sample that was pushed apart looks larger.
+    # of lengths for all panels, so that a sample that was pushed apart looks larger; but 1 mm beside 1 um needs two.
     rim, gap, head = 0.18, 0.3, 0.36
     sides = np.array([(s.box[1] - s.box[0], s.box[3] - s.box[2]) for s in snapshots])
-    inches = width / np.max(sides[:, 0])
-    height = inches * np.max(sides[:, 1])
+    alike = np.max(sides[:, 0]) <= 2 * np.min(sides[:, 0])
+    inches = width / (np.full(len(sides), np.max(sides[:, 0])) if alike else sides[:, 0])
+    height = np.max(inches * sides[:, 1])
+    scales = [forceScale or forceScaleOf(*(snapshots if alike else [s])) for s in snapshots]
     room = len(snapshots) * width + (len(snapshots) - 1) * gap
-    handles = _legend(snapshots, 72 * inches, forces, bonds, dots, scale)
+    handles = _legend(snapshots, 72 * inches[0], forces, bonds, dots, scales, alike)
     columns = _legendColumns(handles, room)
     foot = 0.42 + 0.135 * math.ceil(len(handles) / columns)
     total = np.array([room + 2 * rim, head + height + foot])
     with _figure(total) as figure:
-        for k, (snapshot, (across, up), title) in enumerate(zip(snapshots, inches * sides, titles)):
+        for k, (snapshot, (across, up), title) in enumerate(zip(snapshots, inches[:, None] * sides, titles)):
             x = rim + k * (width + gap)
             axes = figure.add_axes([x / total[0], foot / total[1], across / total[0], up / total[1]])
-            _drawSample(axes, snapshot, 72 * inches, forces, bonds, dots, scale)
-            _drawScaleBar(axes, snapshot, inches)
+            _drawSample(axes, snapshot, 72 * inches[k], forces, bonds, dots, scales[k])
+            _drawScaleBar(axes, snapshot, inches[k])
             figure.text((x + across / 2) / total[0], 1 - 0.5 * head / total[1], _stateOf(snapshot) if title is None else title,
                         ha="center", va="center", fontsize=10)
         figure.legend(handles=handles, ncol=columns, loc="lower left", bbox_to_anchor=(rim / total[0], 0.05 / total[1]), fontsize=7, frameon=False,
@@ -181,7 +188,8 @@ def _drawSample(axes, s, points, forces, bonds, dots, scale):
     axes.add_collection(PolyCollection([s.polygon(c) for c in gas], facecolors=COLOURS["gas"], edgecolors=COLOURS["gas"], linewidths=0.5, zorder=1))
     colours = np.where(s.rattler, COLOURS["rattler"], COLOURS["grain"])
     grains = [Circle(centre, r) for centre, r in zip(np.column_stack([s.x, s.y]), s.r)]
-    axes.add_collection(PatchCollection(grains, facecolors=list(colours), edgecolors=COLOURS["outline"], linewidths=min(0.6, 0.06 * radius), zorder=2))
+    axes.add_collection(PatchCollection(grains, facecolors=list(colours), edgecolors=COLOURS["outline"], zorder=2,
+                                        linewidths=min(0.6, 0.06 * radius)))
     if dots and len(gas):
         centres, clearances = _gasDots(s, gas)
         spots = [Circle(centre, r) for centre, r in zip(centres, np.minimum(0.6 * clearances, 0.3 * np.mean(s.r)))]
@@ -193,7 +201,8 @@ def _drawSample(axes, s, points, forces, bonds, dots, scale):
             axes.add_collection(LineCollection(s.contactEnds[chosen], colors=COLOURS[colour], linewidths=widths, capstyle="round", zorder=layer))
     if bonds and len(s.brokenBonds):
         axes.add_collection(LineCollection(_bondStrokes(s), colors=COLOURS["broken"], linewidths=_strokeWidth(radius), capstyle="round", zorder=6))
-    axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, edgecolor=COLOURS["wall"], linewidth=1.2, zorder=7, clip_on=False))
+    axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, edgecolor=COLOURS["wall"], linewidth=1.2,
+                             zorder=7, clip_on=False))
     _drawInlet(axes, s, points)
     axes.set(xlim=(left, right), ylim=(bottom, top))
     axes.set_axis_off()
@@ -263,7 +272,7 @@ def _drawScaleBar(axes, s, inches):
     axes.text(right - 1.03 * length, y, quantity(length, "m"), ha="right", va="center", fontsize=8)
 
 
-def _legend(snapshots, points, forces, bonds, dots, scale):
+def _legend(snapshots, points, forces, bonds, dots, scales, alike):
     s = snapshots[0]
     radius = float(np.mean(s.r)) * points if len(s.r) else 1.0
     disk = {"marker": "o", "linestyle": "none", "markersize": 6.5, "markeredgecolor": COLOURS["outline"], "markeredgewidth": 0.6}
@@ -277,11 +286,11 @@ def _legend(snapshots, points, forces, bonds, dots, scale):
         handles.append(Line2D([], [], color=COLOURS["inlet"], linewidth=4, solid_capstyle="butt", label="inlet"))
     if forces:
         # One round force for both signs, so that the keys' widths can be compared.
-        round1 = float(f"{scale:.1g}")
-        force = {"linewidth": FORCE_WIDTH * radius * round1 / scale, "solid_capstyle": "butt"}
+        round1 = float(f"{scales[0]:.1g}")
+        force = {"linewidth": FORCE_WIDTH * radius * round1 / scales[0], "solid_capstyle": "butt"}
         for name, sign in (("compression", 1), ("tension", -1)):
-            if any(np.any(sign * t.normalForce > 0.02 * scale) for t in snapshots):  # else no one could see it
-                handles.append(Line2D([], [], color=COLOURS[name], label=f"{name}, {quantity(round1, 'N')}", **force))
+            if any(np.any(sign * t.normalForce > 0.02 * scale) for t, scale in zip(snapshots, scales)):  # else no one could see it
+                handles.append(Line2D([], [], color=COLOURS[name], label=f"{name}, {quantity(round1, 'N')}" if alike else name, **force))
     if bonds and any(len(t.brokenBonds) for t in snapshots):
         handles.append(Line2D([], [], color=COLOURS["broken"], marker="|", linestyle="none", markersize=6, markeredgewidth=_strokeWidth(radius),
                               label="broken bond"))
@@ -291,9 +300,9 @@ def _legend(snapshots, points, forces, bonds, dots, scale):
 def _legendColumns(handles, room):
     """As many columns as ``room`` inches hold, from the numbers of letters: to measure the text would cost a drawing."""
     for columns in range(len(handles), 1, -1):
-        rows = math.ceil(len(handles) / columns)
-        longest = [max(len(h.get_label()) for h in handles[k:k + rows]) for k in range(0, len(handles), rows)]
-        if sum(0.049 * letters + 0.32 for letters in longest) <= room:
+        letters = np.array([len(handle.get_label()) for handle in handles])
+        longest = [np.max(column) for column in np.array_split(letters, columns)]  # matplotlib splits like this
+        if sum(0.049 * n + 0.32 for n in longest) <= room:
             return columns
     return 1
 
@@ -310,7 +319,8 @@ def _figure(size):
 def _save(figure, path):
     """Without the date and the versions that matplotlib would put into the file."""
     kind = os.path.splitext(str(path))[1].lower()
-    metadata = {".png": {"Software": None}, ".pdf": {"CreationDate": None, "Producer": None, "Creator": None}, ".svg": {"Date": None, "Creator": None}}
+    metadata = {".png": {"Software": None}, ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
+                ".svg": {"Date": None, "Creator": None}}
     if kind not in metadata:
         raise CaseError(f"the picture {path} would be of kind '{kind}', allowed: .png, .pdf, .svg")
     figure.savefig(path, metadata=metadata[kind])

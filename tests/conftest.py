@@ -1,0 +1,144 @@
+"""What all tests share: a clean YADE scene for each, two small settled samples made once, scenes set by hand.
+
+YADE has one scene per process. Every test gets it empty, so no test sees what another one left; tests that need the
+command itself start it as a process of its own (tests/robustness).
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import capfrac
+
+capfrac.load_engines()
+
+from yade import O, utils  # noqa: E402  (YADE must be found by capfrac first)
+
+from capfrac import sediment  # noqa: E402
+
+#: Cohesion of the samples, chi gamma with chi = 10 as in the paper [N/m].
+CAPILLARY_STRENGTH = 10 * 0.05
+
+
+def pytest_addoption(parser):
+    parser.addoption("--validation", action="store_true", help="run the long comparisons in tests/validation, too")
+
+
+def pytest_configure(config):
+    config.addinivalue_line("markers", "validation: long comparison with published results; only with --validation")
+
+
+def pytest_collection_modifyitems(config, items):
+    long = [item for item in items if "validation" in item.path.parts]
+    for item in long:
+        item.add_marker(pytest.mark.validation)
+        if not config.getoption("--validation"):
+            item.add_marker(pytest.mark.skip(reason="needs --validation"))
+
+
+@pytest.fixture(autouse=True)
+def cleanScene():
+    """An empty scene before and after the test."""
+    O.reset()
+    yield
+    O.reset()
+
+
+@pytest.fixture(scope="session")
+def settledSamples(tmp_path_factory):
+    """Makes a sample the first time it is asked for; a function (rMin, count) -> path of the saved scene.
+
+    Settling, compressing to 10 and 8 kPa, bonding: some 3 s for 60 grains, so it is done once, and kept as a file.
+    """
+    folder, paths = tmp_path_factory.mktemp("samples"), {}
+
+    def path(rMin, count):
+        if (rMin, count) not in paths:
+            O.reset()
+            sediment.makeSample(sediment.Sediment(grainCount=count, rMin=rMin, seed=1), stressV=10e3, stressH=8e3)
+            sediment.bond(CAPILLARY_STRENGTH)
+            sediment.relax()
+            paths[rMin, count] = folder / f"{rMin:g}-{count}.yade.gz"
+            O.save(str(paths[rMin, count]), quiet=True)
+        return paths[rMin, count]
+
+    return path
+
+
+@pytest.fixture
+def loadSample(settledSamples):
+    """Puts a settled, bonded sample into the scene, a fresh copy each time it is called."""
+
+    def load(rMin=1e-3, count=60):
+        path = settledSamples(rMin, count)
+        O.reset()
+        O.load(str(path), quiet=True)
+
+    return load
+
+
+@pytest.fixture
+def handScene():
+    """Builds a scene of given disks; a function ([(x, y, r), ...], box, **Sediment) -> ids of the grains.
+
+    ``fixed`` takes the grains' freedom: they then move only by what a test writes into their positions and velocities.
+    """
+
+    def build(disks, box, fixed=True, **attributes):
+        x, y, r = np.array(disks, dtype=float).T
+        O.reset()
+        sediment.buildScene(sediment.Sediment(grainCount=len(disks), rMin=float(min(r)), rMax=float(max(r)), **attributes), x, y, r, box)
+        grains = [body.id for body in O.bodies if hasattr(body.shape, "radius")]
+        for i in grains if fixed else []:
+            O.bodies[i].state.blockedDOFs = "xyzXYZ"
+        return grains
+
+    return build
+
+
+@pytest.fixture
+def looseDisks():
+    """A function (count, seed, radius) -> (disks, box): disks at random that touch neither each other nor the walls."""
+
+    def make(count=25, seed=0, radius=1e-3):
+        rng = np.random.default_rng(seed)
+        side = 2.9 * radius * np.sqrt(count)
+        disks = []
+        while len(disks) < count:
+            r = radius * rng.uniform(0.6, 1.2)
+            x, y = rng.uniform(1.02 * r, side - 1.02 * r, 2)
+            if all(np.hypot(x - a, y - b) > 1.02 * (r + c) for a, b, c in disks):
+                disks.append((x, y, r))
+        return disks, (0, side, 0, side)
+
+    return make
+
+
+@pytest.fixture
+def sceneState():
+    """A function that returns all of the scene that an unsuccessful call must leave alone, to be compared with ==."""
+
+    def state():
+        bodies = [(b.id, tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel), getattr(b.shape, "radius", None),
+                   tuple(O.forces.f(b.id))) for b in O.bodies]
+        contacts = sorted((i.id1, i.id2, i.isReal) for i in O.interactions)
+        return bodies, contacts, [type(e).__name__ for e in O.engines], O.iter, O.dt
+
+    return state
+
+
+@pytest.fixture(scope="session")
+def command():
+    """A function (arguments, **Popen) -> process of ``capfrac`` with this interpreter and package."""
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONUNBUFFERED": "1",
+                   "PYTHONPATH": os.pathsep.join([str(Path(capfrac.__file__).parents[1]), str(Path(utils.__file__).parents[1])])}
+
+    def start(*arguments, **options):
+        return subprocess.Popen([sys.executable, "-B", "-c", "import sys; from capfrac.cli import main; sys.exit(main())", *map(str, arguments)],
+                                env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+
+    return start

@@ -1,0 +1,85 @@
+"""Runs that the validation tests share: cases of capfrac, run side by side into folders that are kept.
+
+A run that is there already is not made again, so an interrupted validation goes on where it stopped. By itself this
+file makes all runs and writes the tables of the manual: ``capfrac python tests/validation/runs.py``.
+"""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDER = Path(os.environ.get("CAPFRAC_VALIDATION_RUNS", ROOT / "build" / "validation"))
+SEEDS = (1, 2, 3, 4, 5)
+INLETS = (1, 3, 5, 9)
+STIFFNESSES = (1e7, 1e8, 1e9)
+
+#: For studies of the pressure at which the sample opens: from well below, to the gas at the outlet, no fields.
+TO_BREAKTHROUGH = {"ramp.start": 60e3, "ramp.max": 300e3, "ramp.endAt": '"breakthrough"', "output.pressures": "[]", "output.fields": "false"}
+
+
+def figureRuns(case):
+    return {f"{case}-seed{seed}": (case, {"grains.seed": seed, "output.fields": "false"}) for seed in SEEDS}
+
+
+def inletRuns():
+    return {f"inlet{pores}-seed{seed}": ("figure16", {**TO_BREAKTHROUGH, "grains.seed": seed, "inlet.pores": pores})
+            for pores in INLETS for seed in SEEDS}
+
+
+def stiffnessRuns():
+    return {f"kn{stiffness:.0e}-seed{seed}": ("figure16", {**TO_BREAKTHROUGH, "grains.seed": seed, "grains.normalStiffness": stiffness})
+            for stiffness in STIFFNESSES for seed in SEEDS}
+
+
+def execute(runs, workers=2):
+    """Run what is missing; returns name -> summary."""
+
+    def one(item):
+        name, (case, overrides) = item
+        summary = FOLDER / name / "summary.json"
+        if not (summary.exists() and json.loads(summary.read_text()).get("state") == "finished"):
+            sets = [word for key, value in overrides.items() for word in ("-s", f"{key}={value}")]
+            command = [sys.executable, "-m", "capfrac.cli", "inject", case, "-q", "-o", str(FOLDER / name), *sets]
+            done = subprocess.run(command, capture_output=True, text=True)
+            print(name, "done" if done.returncode == 0 else done.stderr.strip(), flush=True)
+        return name, json.loads(summary.read_text())
+
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    with ThreadPoolExecutor(workers) as pool:
+        return dict(pool.map(one, runs.items()))
+
+
+def row(summary):
+    """The numbers of one run that the tables hold."""
+    parameters, mode, sample = summary["parameters"], summary["mode"], summary["sample"]
+    rMin = parameters["grains"]["rMin"]
+    return {
+        "seed": parameters["grains"]["seed"], "rMin [m]": rMin, "normalStiffness [N/m]": parameters["grains"]["normalStiffness"],
+        "inletPores": sample["inletPores"], "inletWidth [rMin]": round(sample["inletWidth [m]"] / rMin, 2),
+        "initiation [Pa]": mode["initiationPressure"], "breakthrough [Pa]": mode["breakthroughPressure"],
+        "P97 [Pa]": summary["results"]["saturation"]["capillaryPressureAt97% [Pa]"], "finalSaturation": round(mode["finalSaturation"], 4),
+        "invadedThroats": mode["invadedThroats"], "openedThroats": mode["openedThroats"], "brokenBonds": mode["brokenBonds"],
+        "displacement [r]": round(mode["largestDisplacement"], 5), "displacementAtEnd [r]": round(summary["results"]["largestDisplacementAtEnd [r]"], 5),
+        "mode": mode["mode"], "ended": summary["ended"], "seconds": round(summary["seconds"], 1),
+    }
+
+
+def writeTable(path, summaries):
+    rows = [{"run": name, **row(summary)} for name, summary in summaries.items()]
+    with open(path, "w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, rows[0])
+        writer.writeheader()
+        writer.writerows(rows)
+    return rows
+
+
+if __name__ == "__main__":
+    studies = {"figure15": figureRuns("figure15"), "figure16": figureRuns("figure16"), "inlet": inletRuns(), "stiffness": stiffnessRuns()}
+    for study in sys.argv[1:] or studies:
+        for entry in writeTable(FOLDER / f"{study}.csv", execute(studies[study])):
+            print(entry)
