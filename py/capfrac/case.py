@@ -96,7 +96,7 @@ KEYS = (
     _notNegative("network", "mergeTolerance", "-", 1e-3, "Gap beyond which grains do not touch, in smallest radii."),
     _positive("network", "openingThreshold", "-", 0.01, "Growth of a gap, in mean radii, beyond which its throat counts as opened."),
     Key("network", "checkInvariants", bool, "-", True, "Check the bookkeeping of gas and water after each avalanche."),
-    Key("output", "pressures", list, "Pa", (), "Capillary pressures at which snapshots are taken, besides start, breakthrough and end."),
+    Key("output", "pressures", list, "Pa", (), "Capillary pressures at which snapshots are taken, besides start, first opened throat (initiation), breakthrough and end."),
     Key("output", "fields", bool, "-", True, "Whether to write fields for ParaView with each snapshot."),
 )
 _BY_SECTION = {section: {key.name: key for key in KEYS if key.section == section} for section in dict.fromkeys(key.section for key in KEYS)}

@@ -179,11 +179,16 @@ class Run:
         stops = sorted(p for p in self.case["output"]["pressures"] if self.case["ramp"]["start"] <= p < self.case["ramp"]["max"])
         taken = {e["name"] for e in self.folder.summary["snapshots"]}
         stops = [p for p in stops if f"{p:.0f}Pa" not in taken]
-        saved = time.time()
+        saved, seen = time.time(), 0
         while True:
             gas.maxPressure = water + (stops[0] if stops else self.case["ramp"]["max"])
             O.run(CHUNK, True)
             bar(gas.gasPressure - water, gas.gasSaturation)
+            if gas.nEvents > seen:
+                seen = gas.nEvents
+                if "initiation" not in taken and any(gas.events()["opened"]):
+                    taken.add("initiation")
+                    self.picture("initiation")
             if gas.breakthroughIter >= 0 and "breakthrough" not in taken:
                 taken.add("breakthrough")
                 self.picture("breakthrough")

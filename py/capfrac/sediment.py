@@ -20,12 +20,12 @@ import numpy as np
 from capfrac.errors import CaseError, SampleError, SceneError
 
 #: Damping (YADE's local, non-viscous damping) while grains settle and while they are brought to rest [-].
-SETTLING_DAMPING, RESTING_DAMPING = 0.4, 0.7
+SETTLING_DAMPING, RESTING_DAMPING = 0.3, 0.7
 #: Time step over sqrt(m_min/k_n) [-]. Stable up to about 1 for a grain with four contacts (their stiffnesses add up
 #: to 4 k_n, and leap-frog diverges at dt = 2/omega); a third leaves room for more contacts and for the fluids.
 TIME_STEP_SHARE = 0.3
 #: Weight of the settling column over k_n, as an overlap in radii [-]: see :func:`settle`.
-SETTLING_OVERLAP = 3e-4
+SETTLING_OVERLAP = 1e-3
 
 
 @dataclass

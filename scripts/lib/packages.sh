@@ -5,8 +5,8 @@
 CAPFRAC_PACKAGES=(
 	bash bzip2 ca-certificates cmake g++ git ninja-build xz-utils
 	libboost-all-dev libcgal-dev libeigen3-dev libgmp-dev libgtest-dev libmpfr-dev libsuitesparse-dev
-	python3 python3-dev python3-hypothesis python3-matplotlib python3-meshio python3-numpy python3-pandas
-	python3-pytest python3-scipy python3-tqdm
+	python3 python3-dev python3-matplotlib python3-meshio python3-numpy
+	python3-pytest python3-tqdm
 )
 
 # What YADE's own configuration insists on, even for a minimal build.
@@ -15,6 +15,9 @@ YADE_BUILD_PACKAGES=(
 	python3-future python3-ipython python3-minieigen python3-mpi4py python3-mpmath python3-pil
 	python3-pygraphviz python3-pyqt5 python3-sphinx python3-tk python3-xlib
 )
+
+# The distribution's YADE, and what its headers include (it is built with MPI and OpenGL).
+YADE_PACKAGES=(yade freeglut3-dev libglu1-mesa-dev libopenmpi-dev)
 
 missing_packages() {
 	local package

@@ -93,9 +93,10 @@ find_or_build_yade() {
 		return 0
 	fi
 	if [[ $(packaged_yade_version) != "$YADE_VERSION" && $(offered_yade_version) == "$YADE_VERSION" ]]; then
-		require_packages yade python3-yade
+		require_packages "${YADE_PACKAGES[@]}"
 	fi
 	if [[ $(packaged_yade_version) == "$YADE_VERSION" ]]; then
+		require_packages "${YADE_PACKAGES[@]}"
 		say "using the distribution's YADE $YADE_VERSION"
 		YADE_PREFIX=/usr
 		fetch_yade_source

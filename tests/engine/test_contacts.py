@@ -120,20 +120,36 @@ def test_bondStrengthIsEquation5(pair, r1, r2, thickness):
     assert not phys.cohesionBroken
 
 
-def test_wallIsAMirror(onFloor):
-    # Behind a smooth wall stands the grain's own image: mean radius r, the grain's own material twice.
+@pytest.mark.parametrize("factor", [None, 1, 7.5])
+def test_wallIsAMirror(onFloor, factor):
+    # Behind a smooth wall stands the grain's own image: mean radius r, the grain's own material twice; times bondFactor.
     onFloor(1e-6, 2e-3)
     contact()
-    assert sediment.bond(capillaryStrength=CHI * GAMMA, tensileStrength=3e3) == 1
-    assert contact().phys.normalAdhesion == pytest.approx(3e3 * 4e-3 + 2 * CHI * GAMMA, rel=1e-14)
+    if factor is not None:
+        O.materials["walls"].bondFactor = factor
+    assert sediment.bond(capillaryStrength=CHI * GAMMA, tensileStrength=3e3, shearStrength=5e3) == 1
+    phys = contact().phys
+    factor = 100 if factor is None else factor
+    assert phys.normalAdhesion == pytest.approx(factor * (3e3 * 4e-3 + 2 * CHI * GAMMA), rel=1e-14)
+    assert phys.shearAdhesion == pytest.approx(factor * (5e3 * 4e-3 + 2 * CHI * GAMMA), rel=1e-14)
 
 
-def test_wallThatIsNotBondedStaysSo(onFloor):
+def test_wallWithoutBondsStaysSo(onFloor):
     onFloor(1e-6)
     contact()
-    O.materials["walls"].bonded = False
+    O.materials["walls"].bondFactor = 0
     assert sediment.bond(capillaryStrength=CHI * GAMMA) == 0
     assert contact().phys.cohesionBroken
+
+
+def test_contactUnderMoreShearThanItsBondIsLeftFrictional(pair):
+    left, right = pair(1e-5, friction=0.5)  # F_n = 100 N, so friction holds 50 N; the bond would hold 1 N
+    contact()
+    O.bodies[left].state.angVel = (0, 0, 2e-7 / (1e-3 * O.dt))
+    contact()
+    assert O.forces.f(right)[1] == pytest.approx(2, rel=EXACT)
+    assert sediment.bond(capillaryStrength=CHI * GAMMA) == 0
+    assert sediment.bond(capillaryStrength=3 * CHI * GAMMA) == 1
 
 
 def test_bondBreaksJustAboveItsTensileStrength(pair):
@@ -218,7 +234,7 @@ def test_bondContactsCountsNewBondsOnly(handScene):
 @pytest.mark.parametrize("cls, name, bad", [
     (DiskMat, "normalStiffness", 0), (DiskMat, "normalStiffness", math.nan), (DiskMat, "normalStiffness", math.inf),
     (DiskMat, "shearStiffness", -1), (DiskMat, "tensileStrength", -1), (DiskMat, "shearStrength", math.nan), (DiskMat, "capillaryStrength", -1),
-    (WallMat, "normalStiffness", -1), (WallMat, "shearStiffness", math.inf)])
+    (WallMat, "normalStiffness", -1), (WallMat, "shearStiffness", math.inf), (WallMat, "bondFactor", -1)])
 def test_impossibleValuesAreRefusedByName(cls, name, bad):
     with pytest.raises(ValueError, match=rf"{cls.__name__}\.{name} \[.*\] = .*allowed: finite and >"):
         cls(**{name: bad})

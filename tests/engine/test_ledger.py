@@ -11,7 +11,7 @@ from yade import O
 
 from capfrac import injection
 
-CAPILLARY, STEP = 100e3, 5e3  #: gas pressures [Pa]: below all throats of the sample, and the step of the ramp
+START, STEP = 130e3, 5e3  #: gas pressures [Pa]: just below the first event, and the step of the ramp
 #: Contents are sums of some thousand additions of cells: 1e-16 each, relative to the void.
 LEDGER = 1e-10
 
@@ -21,13 +21,13 @@ def fracturing(loadSample):
     """A function (**attributes) -> gas engine in a sample of 1 um that opens at some 150 kPa."""
 
     def make(**attributes):
-        loadSample(1e-6, 30)
-        return injection.startInjection(CAPILLARY, STEP, 250e3, pores=3, checkInvariants=True, minLevelSteps=20, maxLevelSteps=400, **attributes)
+        loadSample(1e-6)
+        return injection.startInjection(START, STEP, 250e3, pores=3, checkInvariants=True, minLevelSteps=20, maxLevelSteps=300, **attributes)
 
     return make
 
 
-@pytest.mark.parametrize("attributes", [{}, {"poreMode": "triangle", "trapping": True}, {"thickness": 1.0, "waterPressure": 40e3, "remeshDisplacement": 0.05}])
+@pytest.mark.parametrize("attributes", [{}, {"poreMode": "triangle", "trapping": True}, {"remeshDisplacement": 0.05, "mergeTolerance": 0.01}])
 def test_gasAndWaterAreKept(fracturing, attributes):
     gas = fracturing(**attributes)
     initial = gas.volumes()["initialVoid"]
@@ -44,7 +44,7 @@ def test_gasAndWaterAreKept(fracturing, attributes):
         for v, g, w in zip(cells["void"], cells["gas"], cells["water"]):
             assert g + w == pytest.approx(v, abs=1e-13 * initial)
     # The test is worth something only if the sample was torn: else it says so here.
-    assert gas.nRemeshes > 5 and gas.nEvents > 10 and len(gas.brokenBonds()) > 0
+    assert gas.nRemeshes > 5 and gas.nEvents > 10 and len(gas.brokenBonds()) > 2
     assert any(gas.events()["opened"])
 
 

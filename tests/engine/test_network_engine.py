@@ -162,7 +162,6 @@ def test_trianglesAreTheirOwnPores(square):
     assert sorted(engine.cells()["domain"]) == list(range(10))
 
 
-@pytest.mark.xfail(strict=True, reason="poreMode, assigned, does not find the domains anew (/tmp/engine_bugs.txt B2)")
 def test_poreModeCanBeChanged(square):
     engine = square(0.1 * R)
     engine.poreMode = "triangle"
@@ -177,7 +176,6 @@ def test_pressuresMustFitTheCells(square):
     assert set(engine.cells()["pressure"]) == {5.0}
 
 
-@pytest.mark.xfail(strict=True, reason="setCellPressures takes NaN (/tmp/engine_bugs.txt B5)")
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 def test_pressuresMustBeFinite(square, bad):
     with pytest.raises(ValueError, match="cell 3"):
