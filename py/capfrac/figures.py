@@ -1,4 +1,4 @@
-"""Pictures of snapshots and curves of an injection, in the language of Figures 15 and 16 of Jain & Juanes (2009).
+"""Pictures of snapshots and curves of an injection, in the language of Figures 15 and 16 of Jain & Juanes (2008).
 
 Grains are disks, gas is blue, compression between grains is brown and tension green, with lines from centre to centre
 as thick as the force is large. A picture's file has the same bytes whenever it is drawn from the same numbers.

@@ -11,13 +11,13 @@ Grains are disks of thickness w = 1 m with stiffnesses that do not depend on the
 Eqs. 1-4). The walls are smooth unless told otherwise, so that the stresses in the sample are uniform.
 """
 
-import csv
 import math
 from dataclasses import dataclass, fields
 
 import numpy as np
 
 from capfrac.errors import CaseError, SampleError, SceneError
+from capfrac.packing import drawRadii, placeGrains, readPacking
 
 #: Damping (YADE's local, non-viscous damping) while grains settle and while they are brought to rest [-].
 SETTLING_DAMPING, RESTING_DAMPING = 0.3, 0.7
@@ -61,58 +61,6 @@ class Sediment:
             if int(getattr(self, name)) != getattr(self, name):
                 raise CaseError(f"{name} = {getattr(self, name)}, allowed: whole numbers")
             setattr(self, name, int(getattr(self, name)))
-
-
-def drawRadii(sample):
-    """Radii [m], uniform in [rMin, rMax], from the sample's seed."""
-    return np.random.default_rng(sample.seed).uniform(sample.rMin, sample.rMax, sample.grainCount)
-
-
-def placeGrains(sample, radii):
-    """Loose random positions for grains about to settle.
-
-    The grains lie on a grid wide enough that none touch, each moved at random within its square, rows filled from
-    the bottom. Returns ``(x, y, width, height)`` [m] with the box's lower left corner in the origin.
-    """
-    solid = math.pi * float(np.sum(radii**2))
-    # 0.84: share of solids in a settled pack of disks; only the shape of the box depends on it.
-    width = max(math.sqrt(solid / 0.84 / sample.aspect), 4 * sample.rMax)
-    pitch = 2.3 * sample.rMax
-    columns = max(1, int(width / pitch))
-    pitchX = width / columns
-    rng = np.random.default_rng([sample.seed, 1])
-    k = np.arange(len(radii))
-    x = (k % columns + 0.5) * pitchX + rng.uniform(-1, 1, len(radii)) * (0.5 * pitchX - 1.01 * radii)
-    y = (k // columns + 0.5) * pitch + rng.uniform(-1, 1, len(radii)) * (0.5 * pitch - 1.01 * radii)
-    return x, y, width, pitch * math.ceil(len(radii) / columns)
-
-
-def readPacking(path):
-    """A packing of the user's own: CSV with the columns x, y, r [m]. Returns arrays ``(x, y, r)``.
-
-    Raises :class:`CaseError` naming the line and what is wrong with it.
-    """
-    rows = []
-    try:
-        with open(path, newline="", encoding="utf-8") as stream:
-            reader = csv.DictReader(line for line in stream if not line.lstrip().startswith("#"))
-            header = [name.strip() for name in reader.fieldnames or []]
-            if not {"x", "y", "r"} <= set(header):
-                raise CaseError(f"{path}: columns {header}, needed: x, y, r (in metres)")
-            reader.fieldnames = header
-            for number, row in enumerate(reader, start=1):
-                try:
-                    x, y, r = (float(row[name]) for name in ("x", "y", "r"))
-                except (TypeError, ValueError):
-                    raise CaseError(f"{path}: grain {number} is {dict(row)}, needed: three numbers x, y, r") from None
-                if not all(map(math.isfinite, (x, y, r))) or r <= 0:
-                    raise CaseError(f"{path}: grain {number} has x = {x}, y = {y}, r = {r}; allowed: finite, r > 0")
-                rows.append((x, y, r))
-    except OSError as problem:
-        raise CaseError(f"the packing {path} cannot be read: {problem.strerror}") from None
-    if not rows:
-        raise CaseError(f"{path}: holds no grains")
-    return tuple(np.array(rows).T)
 
 
 def buildScene(sample, x, y, radii, box):
