@@ -139,7 +139,9 @@ def _override(raw, text):
     if not (equals and dot):
         raise CaseError(f"'{text}' is not of the form section.key=value, for example grains.seed=7")
     try:
-        raw.setdefault(section, {})[key] = tomllib.loads(f"value = {value}")["value"]
+        entries = raw.setdefault(section, {})
+        if isinstance(entries, dict):  # else resolveCase will say what is wrong with it
+            entries[key] = tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         raise CaseError(f"{name.strip()} = {value}: not a TOML value (texts need quotes)") from None
 
@@ -202,6 +204,8 @@ def _checkTogether(case, source):
     for point in inlet["points"]:
         if not (isinstance(point, (list, tuple)) and len(point) == 2 and all(isinstance(v, (int, float)) for v in point)):
             raise CaseError(f"{source}: inlet.points holds {point!r}, allowed: pairs [x, y] in metres")
+    if inlet["wall"] == inlet["outlet"] and not inlet["points"]:
+        raise CaseError(f"{source}: inlet.wall = inlet.outlet = '{inlet['wall']}', allowed: two different walls")
     if ramp["max"] < ramp["start"]:
         raise CaseError(f"{source}: ramp.max = {ramp['max']} Pa, allowed: >= ramp.start = {ramp['start']} Pa")
     if ramp["maxLevelSteps"] < ramp["minLevelSteps"]:

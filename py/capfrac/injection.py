@@ -16,9 +16,11 @@ import time
 from dataclasses import asdict
 from pathlib import Path
 
+import numpy as np
+
 from capfrac import export, figures, mode, sediment, snapshot
 from capfrac.case import readCase, resolveCase
-from capfrac.errors import CapfracError, CaseError, SceneError
+from capfrac.errors import CaseError, RunFolderError, SceneError
 from capfrac.runfolder import RunFolder
 
 #: Time steps between looks at the run [-]; short enough that Ctrl-C answers at once.
@@ -38,8 +40,12 @@ def startInjection(start, increment, max, pores=0, wall="bottom", outlet="top", 
     from yade import O
     from yade.wrapper import GasInvasionEngine
 
-    gas = GasInvasionEngine(label="gas", gasPressure=waterPressure + start, pressureIncrement=increment, waterPressure=waterPressure,
-                            maxPressure=waterPressure + max, inletWall=wall, outletWall=outlet, **attributes)
+    servo = sediment.engine("servo")
+    try:
+        gas = GasInvasionEngine(label="gas", gasPressure=waterPressure + start, pressureIncrement=increment, waterPressure=waterPressure,
+                                maxPressure=waterPressure + max, inletWall=wall, outletWall=outlet, **attributes)
+    except ValueError as problem:
+        raise CaseError(str(problem)) from None
     try:
         if points:
             gas.inletPoints = [tuple(map(float, point)) for point in points]
@@ -51,7 +57,7 @@ def startInjection(start, increment, max, pores=0, wall="bottom", outlet="top", 
     except RuntimeError as problem:
         raise SceneError(str(problem)) from None
     engines = list(O.engines)
-    engines.insert(engines.index(sediment.engine("servo")), gas)
+    engines.insert(engines.index(servo), gas)
     O.engines = engines
     return sediment.engine("gas")
 
@@ -106,6 +112,7 @@ class Run:
     def __init__(self, case, folder, report):
         self.case, self.folder, self.report = case, folder, report
         self.gas = self.start = None
+        self.begun = False  #: whether there is a run to take up again
         self.spent = folder.summary.get("seconds", 0.0)
         self.clock = time.time()
 
@@ -115,9 +122,15 @@ class Run:
 
         if self.folder.checkpoint.exists():
             self.report("taking up the run at its checkpoint")
-            O.load(str(self.folder.checkpoint), quiet=True)
+            try:
+                O.load(str(self.folder.checkpoint), quiet=True)
+            except (RuntimeError, MemoryError, ValueError) as problem:  # what YADE raises depends on where the file ends to make sense
+                O.reset()
+                raise RunFolderError(f"the checkpoint {self.folder.checkpoint} cannot be read ({problem or type(problem).__name__}): damaged, or of "
+                                     "another version of capfrac or YADE; --restart discards the run") from None
             self.gas = sediment.engine("gas")
             self.start = snapshot.load(self.folder.sub("snapshots") / "start.npz")
+            self.begun = True
             return
         nBonds = _makeSample(self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}"))
         self.gas = _startGas(self.case)
@@ -132,9 +145,10 @@ class Run:
         self.start = snapshot.takeSnapshot(self.gas)
         self.picture("start")
         self.checkpoint()
+        self.begun = True
 
     def picture(self, name):
-        """Take a snapshot: state, picture and fields."""
+        """Take a snapshot: state, picture and fields. Returns the snapshot."""
         shot = snapshot.takeSnapshot(self.gas, self.start)
         shots = self.folder.sub("snapshots")
         shot.save(shots / f"{name}.npz")
@@ -149,6 +163,7 @@ class Run:
                 if files:
                     export.writeCollection(fields / f"{kind}.pvd", files)
         self.folder.writeSummary(snapshots=entries)
+        return shot
 
     def checkpoint(self):
         """Save the scene and the logs so that the run can be taken up here."""
@@ -205,7 +220,8 @@ class Run:
     def finish(self, reason):
         """Write what a finished run has; the checkpoint goes."""
         gas = self.gas
-        self.picture("end")
+        last = self.picture("end")
+        moved = np.hypot(*last.displacement.T) / last.r
         self.checkpoint()
         measured = mode.measureMode(gas)
         levels = gas.levels()
@@ -213,8 +229,9 @@ class Run:
                                    breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure, title=self.case["case"]["title"])
         results = {"saturation": {f"capillaryPressureAt{share:.0%} [Pa]": next(
             (p - gas.waterPressure for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= share), None) for share in (0.5, 0.9, 0.97)},
-            "displacementWithRattlers [r]": max(levels["displacementWithRattlers"], default=0.0),
-            "largestDisplacementAtEnd [r]": max(levels["displacement"], default=0.0), "remeshes": gas.nRemeshes,
+            "displacementWithRattlersAtEnd [r]": float(moved.max()),
+            "largestDisplacementAtEnd [r]": float(moved[~last.rattler].max()) if not last.rattler.all() else 0.0, "remeshes": gas.nRemeshes,
+            "forceNetwork": mode.forceNetworkChange(self.start, last),
             "ledger [m^3]": dict(gas.volumes()), "iterations": levels["iteration"][-1] if levels["iteration"] else 0}
         self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results)
         self.folder.checkpoint.unlink(missing_ok=True)
@@ -222,13 +239,12 @@ class Run:
 
 def versions():
     """Versions of everything that can change a result."""
-    import numpy
     from yade import config
 
     import capfrac
 
     return {"capfrac": capfrac.__version__, "yade": config.version, "yadeFeatures": list(config.features), "python": platform.python_version(),
-            "numpy": numpy.__version__, "machine": platform.machine()}
+            "numpy": np.__version__, "machine": platform.machine()}
 
 
 def inject(case, folder, restart=False, report=print, bar=lambda pressure, saturation: None, replaceScene=False):
@@ -256,18 +272,21 @@ def inject(case, folder, restart=False, report=print, bar=lambda pressure, satur
         report(f"{runFolder.path} holds this run already, finished")
         return runFolder.summary
     O.reset()
+    fresh = not runFolder.summary  # else there are results of earlier, which stay whatever happens
     run = Run(case, runFolder, report)
     try:
         run.begin()
         run.finish(run.loop(bar))
     except KeyboardInterrupt:
-        if run.gas is not None:
+        if run.begun:
             run.checkpoint()
             runFolder.writeSummary(state="interrupted")
         raise
-    except RuntimeError as problem:
-        if not isinstance(problem, CapfracError) and run.gas is not None:
+    except RuntimeError as problem:  # from an engine in the loop
+        if run.begun:
             runFolder.writeSummary(state="failed", error=str(problem))
-            raise SceneError(str(problem)) from problem
-        raise
+        raise SceneError(str(problem)) from problem
+    finally:
+        if fresh and not run.begun:
+            runFolder.discard()
     return runFolder.summary

@@ -10,6 +10,8 @@ where it did not come to that: what happens to a sample that gas has cut in two 
 
 from dataclasses import asdict, dataclass
 
+import numpy as np
+
 #: The rule's bounds; see :func:`classify`.
 FEW_OPENED, MOST_OPENED, RIGID_DISPLACEMENT, OPEN_DISPLACEMENT = 0.1, 0.5, 0.1, 1.0
 
@@ -76,3 +78,27 @@ def asText(mode):
     for name, value in numbers.items():
         lines.append(f"  {name}: {'not reached' if value is None else format(value, '.4g') if isinstance(value, float) else value}")
     return "\n".join(lines)
+
+
+def forceNetworkChange(first, last):
+    """How much the network of contact forces differs between two snapshots: a dict.
+
+    ``lost`` and ``gained``: shares of the contacts of ``first`` that are gone, and that are new [-]; contacts that bear less than
+    a hundredth of the mean compression do not count. ``correlation``: of the normal forces over all contacts of either [-];
+    1 for an unchanged network, NaN where it is not defined.
+    """
+
+    def forces(shot):
+        return {tuple(sorted(map(int, pair))): float(force) for pair, force in zip(shot.contacts, shot.normalForce)}
+
+    before, after = forces(first), forces(last)
+    pairs = sorted(before.keys() | after.keys())
+    old = np.array([before.get(pair, 0.0) for pair in pairs])
+    new = np.array([after.get(pair, 0.0) for pair in pairs])
+    least = 0.01 * old[old > 0].mean() if (old > 0).any() else 0.0
+    bore, bears = old > least, new > least
+    spread = old.std() * new.std() if pairs else 0.0
+    return {
+        "lost": float((bore & ~bears).sum() / max(bore.sum(), 1)), "gained": float((bears & ~bore).sum() / max(bore.sum(), 1)),
+        "correlation": float(((old - old.mean()) * (new - new.mean())).mean() / spread) if spread > 0 else float("nan"),
+    }

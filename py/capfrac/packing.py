@@ -58,3 +58,16 @@ def readPacking(path):
     if not rows:
         raise CaseError(f"{path}: holds no grains")
     return tuple(np.array(rows).T)
+
+
+def checkOverlaps(x, y, r):
+    """Refuse grains that lie in each other: :class:`CaseError` naming the first two (counted from 1) and by how much.
+
+    Contacts push such grains apart with forces that have nothing to do with the sample, and of coincident ones no
+    contact knows in which direction.
+    """
+    for i in range(1, len(x)):
+        overlap = r[i] + r[:i] - np.hypot(x[:i] - x[i], y[:i] - y[i])
+        j = int(np.argmax(overlap / np.minimum(r[i], r[:i])))
+        if overlap[j] > 0.5 * min(r[i], r[j]):
+            raise CaseError(f"grains {j + 1} and {i + 1} of the packing overlap by {overlap[j]:.4g} m, allowed: up to half of the smaller radius, {0.5 * min(r[i], r[j]):.4g} m")

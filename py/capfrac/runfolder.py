@@ -15,11 +15,14 @@ import hashlib
 import json
 import math
 import os
+import re
 from pathlib import Path
 
 from capfrac.errors import RunFolderError
 
-STATES = ("running", "interrupted", "finished")
+STATES = ("running", "interrupted", "failed", "finished")
+#: Names of files that are being written.
+_ASIDE = re.compile(r"\.(probe-\d+|\d+-.+)")
 
 
 def _plain(value):
@@ -45,6 +48,7 @@ class RunFolder:
     def __init__(self, path, case, restart=False):
         self.path = Path(path)
         self.key = caseKey(case)
+        self.made = not self.path.exists()
         try:
             self.path.mkdir(parents=True, exist_ok=True)
             probe = self.path / f".probe-{os.getpid()}"
@@ -53,7 +57,8 @@ class RunFolder:
         except OSError as problem:
             raise RunFolderError(f"the run folder {self.path} cannot be written: {problem.strerror}") from None
         self.summary = self._readSummary()
-        foreign = [entry.name for entry in self.path.iterdir()] if not self.summary else []
+        # A run that was killed may leave a file that it was about to put in its place (see writeWhole).
+        foreign = [entry.name for entry in self.path.iterdir() if not _ASIDE.fullmatch(entry.name)] if not self.summary else []
         if foreign:
             raise RunFolderError(f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or new one")
         if restart:
@@ -62,12 +67,16 @@ class RunFolder:
             raise RunFolderError(f"the run folder {self.path} holds a run with other parameters; choose another folder, or --restart to discard that run")
 
     def _readSummary(self):
+        path = self.path / "summary.json"
         try:
-            return json.loads((self.path / "summary.json").read_text(encoding="utf-8"))
+            summary = json.loads(path.read_text(encoding="utf-8"))
         except FileNotFoundError:
             return {}
         except (OSError, ValueError) as problem:
-            raise RunFolderError(f"{self.path / 'summary.json'} cannot be read: {problem}") from None
+            raise RunFolderError(f"{path} cannot be read: {problem}") from None
+        if not (isinstance(summary, dict) and "caseKey" in summary):
+            raise RunFolderError(f"{path} is not that of a run of capfrac; choose an empty folder or a new one")
+        return summary
 
     @property
     def finished(self):
@@ -86,15 +95,26 @@ class RunFolder:
 
     def clear(self):
         """Remove what a run writes, and nothing else."""
-        for name in ("summary.json", "events.csv", "pc_saturation.csv", "curve.png", "checkpoint.yade.gz"):
-            (self.path / name).unlink(missing_ok=True)
-        for name in ("snapshots", "fields"):
-            folder = self.path / name
-            if folder.is_dir():
-                for entry in folder.iterdir():
-                    entry.unlink()
-                folder.rmdir()
+        written = [self.path / name for name in ("events.csv", "pc_saturation.csv", "curve.png", "checkpoint.yade.gz")]
+        written += [entry for entry in self.path.iterdir() if _ASIDE.fullmatch(entry.name)]
+        folders = [folder for folder in (self.path / "snapshots", self.path / "fields") if folder.is_dir()]
+        for folder in folders:
+            written += [entry for entry in folder.iterdir() if entry.suffix in (".npz", ".png", ".vtu", ".pvd")]
+        try:
+            for entry in written + [self.path / "summary.json"]:  # the summary last: without it the rest would be foreign
+                entry.unlink(missing_ok=True)
+            for folder in folders:
+                if not any(folder.iterdir()):
+                    folder.rmdir()
+        except OSError as problem:
+            raise RunFolderError(f"the run in {self.path} cannot be discarded: {problem}") from None
         self.summary = {}
+
+    def discard(self):
+        """Take back what a run left that ended before there was anything to take up."""
+        self.clear()
+        if self.made and not any(self.path.iterdir()):
+            self.path.rmdir()
 
     def writeWhole(self, name, write):
         """Let ``write(path)`` write a file aside and move it to its place at once."""
@@ -104,8 +124,9 @@ class RunFolder:
             write(aside)
             os.replace(aside, target)
         except OSError as problem:
-            aside.unlink(missing_ok=True)
             raise RunFolderError(f"{target} cannot be written: {problem.strerror}") from None
+        finally:
+            aside.unlink(missing_ok=True)
 
     def writeSummary(self, **entries):
         """Update summary.json with these entries."""

@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from capfrac.errors import CaseError, SampleError, SceneError
-from capfrac.packing import drawRadii, placeGrains, readPacking
+from capfrac.packing import checkOverlaps, drawRadii, placeGrains
 
 #: Damping (YADE's local, non-viscous damping) while grains settle and while they are brought to rest [-].
 SETTLING_DAMPING, RESTING_DAMPING = 0.3, 0.7
@@ -67,7 +67,8 @@ def buildScene(sample, x, y, radii, box):
     """Fill YADE's empty scene with disks and four walls, engines for dry grains and a safe time step.
 
     ``box`` is (left, right, bottom, top) [m]. The labels ``bonds`` (contact functor), ``servo`` (wall servo, dead) and
-    ``newton`` are set. Raises :class:`SceneError` when the scene holds bodies already.
+    ``newton`` are set. Raises :class:`SceneError` when the scene holds bodies already, :class:`CaseError` naming a grain
+    (counted from 1) that lies outside of the box or is none.
     """
     from yade import O, Sphere, utils
     from yade.wrapper import (Bo1_Sphere_Aabb, Bo1_Wall_Aabb, DiskMat, ForceResetter, Ig2_Sphere_Sphere_ScGeom6D,
@@ -79,6 +80,10 @@ def buildScene(sample, x, y, radii, box):
     if len(O.bodies) > 0:
         raise SceneError(f"the scene holds {len(O.bodies)} bodies already; call O.reset() first if they are not needed")
     left, right, bottom, top = box
+    for number, (xi, yi, ri) in enumerate(zip(x, y, radii), start=1):
+        if not (math.isfinite(ri) and ri > 0 and left < xi < right and bottom < yi < top):
+            raise CaseError(f"grain {number} has x = {xi:g}, y = {yi:g}, r = {ri:g} m; allowed: r > 0, the centre in the box "
+                            f"[{left:g}, {right:g}] x [{bottom:g}, {top:g}]")
     grainMat = DiskMat(density=sample.density, frictionAngle=math.atan(sample.friction), label="grains",
                        normalStiffness=sample.normalStiffness, shearStiffness=sample.shearStiffness)
     wallMat = WallMat(frictionAngle=math.atan(sample.wallFriction), normalStiffness=sample.normalStiffness,
@@ -168,6 +173,10 @@ def _runUntil(done, maxSteps, chunk, complaint, progress, label):
             progress(label, utils.unbalancedForce())
         if done():
             return
+        lost = next((body for body in _grains() if not math.isfinite(body.state.pos.norm())), None)
+        if lost is not None:
+            raise SampleError(f"body #{lost.id} flew off while {label} (its place is {tuple(lost.state.pos)}): the time step O.dt = {O.dt:g} s is too large, "
+                              "or grains lay in each other")
     raise SampleError(complaint.format(unbalanced=utils.unbalancedForce()))
 
 
@@ -213,7 +222,9 @@ def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxStep
     try:
         _runUntil(lambda: servo.error < tolerance and utils.unbalancedForce() < unbalanced, maxSteps, 1000,
                   "UNREACHED", progress, "compressing")
-    except SampleError:
+    except SampleError as problem:
+        if "UNREACHED" not in str(problem):
+            raise
         left, right, bottom, top = servo.stress
         raise SampleError(
             f"the walls did not come to sigma_V = {stressV:g} Pa, sigma_H = {stressH:g} Pa within {maxSteps} steps: "
@@ -266,6 +277,7 @@ def makeSample(sample, stressV, stressH, packing=None, progress=None):
         settle(sample, progress=progress)
     else:
         x, y, radii = packing
+        checkOverlaps(x, y, radii)
         box = (np.min(x - radii), np.max(x + radii), np.min(y - radii), np.max(y + radii))
         buildScene(sample, x, y, radii, tuple(map(float, box)))
     compress(sample, stressV, stressH, progress=progress)

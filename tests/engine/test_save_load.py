@@ -1,8 +1,7 @@
 """Saving and loading: nothing is lost, and a run that is taken up again goes on as if it had not been interrupted.
 
-Loaded, YADE finds the contacts of a scene in another order than the run that made them, so forces are summed in another
-order: round-off differs, and a fracturing sample amplifies it as every granular system does. Hence: state right after
-loading to the last bit; the run afterwards event by event, with tolerances for positions.
+Everything is compared to the last bit, the run after loading, too: YADE keeps the order of contacts in the file, so forces
+are summed in the same order (with one thread). A tolerance would hide what a fracturing sample amplifies anyway.
 """
 
 import math
@@ -69,20 +68,15 @@ def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path, cut):
         O.run(cut, True)
         if interrupt:
             reload(tmp_path)
-        O.run(1600 - cut, True)
+        O.run(2000 - cut, True)
         gas = sediment.engine("gas")
-        return gas, gas.events(), np.array([tuple(b.state.pos)[:2] for b in O.bodies])
+        return reports(gas), attributesOf(gas), [(tuple(b.state.pos), tuple(b.state.vel)) for b in O.bodies]
 
-    whole, events, places = run(False)
-    broken, nRemeshes = whole.brokenBonds(), whole.nRemeshes
-    continued, events2, places2 = run(True)
-    assert len(events["throat"]) > 3
-    for column in ("throat", "pore", "iteration", "level", "gasPressure", "cells", "opened", "bondBroken"):
-        assert events2[column] == events[column], column
-    np.testing.assert_allclose(events2["entryPressure"], events["entryPressure"], rtol=1e-6)
-    np.testing.assert_allclose(places2, places, rtol=0, atol=1e-6 * 1e-6)  # a millionth of a grain
-    assert continued.brokenBonds() == broken and continued.nRemeshes == nRemeshes
-    assert continued.volumes()["error"] < 1e-10
+    whole, continued = run(False), run(True)
+    assert len(whole[0]["events"]["throat"]) > 3 and whole[1]["nRemeshes"] > 0
+    for column in whole[0]["events"]:
+        assert continued[0]["events"][column] == whole[0]["events"][column], column
+    assert same(continued, whole)
 
 
 @pytest.mark.parametrize("name, value", [("maxPressure", 300e3), ("checkInvariants", False), ("openingThreshold", 0.02), ("poreMode", "domain")])
@@ -151,7 +145,7 @@ def test_functorsAndBondsAreKept(loadSample, tmp_path):
                        tuple(i.phys.normalForce), tuple(i.phys.shearForce)) for i in O.interactions if i.isReal)
 
     before = contacts()
-    assert sum(not c[6] for c in before) > 60
+    assert 20 < sum(not c[6] for c in before) < len(before)  # some were under more shear than a bond holds
     reload(tmp_path)
     assert contacts() == before
     loop = next(e for e in O.engines if isinstance(e, InteractionLoop))

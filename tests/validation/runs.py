@@ -65,6 +65,7 @@ def row(summary):
         "P97 [Pa]": summary["results"]["saturation"]["capillaryPressureAt97% [Pa]"], "finalSaturation": round(mode["finalSaturation"], 4),
         "invadedThroats": mode["invadedThroats"], "openedThroats": mode["openedThroats"], "brokenBonds": mode["brokenBonds"],
         "displacement [r]": round(mode["largestDisplacement"], 5), "displacementAtEnd [r]": round(summary["results"]["largestDisplacementAtEnd [r]"], 5),
+        "contactsLost": round(summary["results"]["forceNetwork"]["lost"], 4), "forceCorrelation": round(summary["results"]["forceNetwork"]["correlation"], 4),
         "mode": mode["mode"], "ended": summary["ended"], "seconds": round(summary["seconds"], 1),
     }
 
