@@ -100,7 +100,7 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((Real,gasSaturation,0,Attr::readonly,"Share of the void volume that holds gas [-] |yupdate|, at each new level and each avalanche."))
 		((int,nTrappedWater,0,Attr::readonly,"Domains of water that are cut off from the outlet [-] |yupdate| (with trapping)."))
 		((int,nDetachedGas,0,Attr::readonly,"Domains of gas that are cut off from the inlet [-] |yupdate|; they keep the gas pressure and do not advance."))
-		((std::vector<int>,rattlers,,Attr::readonly,"Grains that bore no load at the start (fewer than two loaded contacts) [ids] |yupdate|."))
+		((std::vector<int>,rattlers,,Attr::readonly,"Grains that bore no load at the start: fewer than two contacts with at least a hundredth of the mean contact force [ids] |yupdate|."))
 		((std::vector<int>,savedBonds,,(Attr::hidden|Attr::readonly),"Pairs bonded at the start, for saving."))
 		((std::vector<Real>,savedStart,,(Attr::hidden|Attr::readonly),"Grains and box at the start [m], for saving."))
 		((std::vector<Vector3i>,eventBodies,,(Attr::hidden|Attr::readonly),"Cells of the events: three bodies each."))

@@ -18,12 +18,17 @@ def main(prefix, suffix=""):
     found = sorted(glob.glob(os.path.join(prefix, "lib*", "**", f"yade{suffix or '*'}", "py", "yade", "config.py"), recursive=True))
     if not found:
         sys.exit(f"there is no YADE below {prefix} (no lib/…/yade{suffix or '*'}/py/yade/config.py)")
-    if len(found) > 1:
-        sys.exit(f"several YADEs below {prefix}: {', '.join(found)}; choose one with YADE_SUFFIX")
     os.environ.pop("YADE_PREFIX", None)  # it would override the prefix that the file itself knows
-    with contextlib.redirect_stdout(io.StringIO()):
-        config = runpy.run_path(found[0])
-    library_folder = os.path.dirname(os.path.dirname(os.path.dirname(found[0])))
+    configs = {}
+    for path in found:
+        with contextlib.redirect_stdout(io.StringIO()):
+            configs[path] = runpy.run_path(path)
+    # Debian builds YADE in four precisions, side by side; capfrac is for double.
+    double = [path for path in found if configs[path]["highPrecisionBits"] == 64]
+    if len(double) != 1:
+        sys.exit(f"{len(double)} YADEs of double precision below {prefix} (found: {', '.join(found)}); choose one with YADE_SUFFIX")
+    path, config = double[0], configs[double[0]]
+    library_folder = os.path.dirname(os.path.dirname(os.path.dirname(path)))
     print(";".join([config["version"], library_folder, ",".join(config["features"]), config["suffix"]]))
 
 

@@ -121,6 +121,8 @@ def readCase(nameOrPath, overrides=()):
     except OSError as problem:
         shipped = ", ".join(shippedCases())
         raise CaseError(f"the case '{nameOrPath}' cannot be read ({problem.strerror}); shipped cases: {shipped}") from None
+    except UnicodeDecodeError:
+        raise CaseError(f"{path} is not a text in UTF-8") from None
     try:
         raw = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:

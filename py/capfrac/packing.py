@@ -55,6 +55,8 @@ def readPacking(path):
                 rows.append((x, y, r))
     except OSError as problem:
         raise CaseError(f"the packing {path} cannot be read: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise CaseError(f"the packing {path} is not a text in UTF-8") from None
     if not rows:
         raise CaseError(f"{path}: holds no grains")
     return tuple(np.array(rows).T)

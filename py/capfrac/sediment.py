@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from capfrac.errors import CaseError, SampleError, SceneError
-from capfrac.packing import checkOverlaps, drawRadii, placeGrains
+from capfrac.packing import checkOverlaps, drawRadii, placeGrains, readPacking
 
 #: Damping (YADE's local, non-viscous damping) while grains settle and while they are brought to rest [-].
 SETTLING_DAMPING, RESTING_DAMPING = 0.3, 0.7

@@ -8,7 +8,6 @@ import math
 
 import numpy as np
 import pytest
-from yade import O
 from yade.wrapper import GasInvasionEngine
 
 GAMMA = 0.05

@@ -1,0 +1,72 @@
+"""The gas inlet: some pores of a wall, a stretch of it, or pores that hold given points; its width is on record."""
+
+import numpy as np
+import pytest
+from yade import O
+
+R = 1e-3
+
+
+def test_inletAtTheOutletHasBrokenThrough(rigid):
+    gas = rigid("settled", outletWall="bottom")
+    O.run(20, True)
+    assert gas.breakthroughIter >= 0
+
+
+@pytest.mark.parametrize("wall, axis", [("bottom", 0), ("top", 0), ("left", 1), ("right", 1)])
+def test_inletOfSomePores(rigid, wall, axis):
+    gas = rigid("settled", inletTo=1, inletWall=wall)
+    middle = 0.5 * sum(b.state.pos[axis] for b in list(O.bodies)[2 * axis:2 * axis + 2])
+    gas.inletFrom, gas.inletTo = gas.inletStretch(3, middle)
+    gas.prepare()
+    assert gas.inletPores == 3
+    cells = gas.cells()
+    assert len({d for d, inlet in zip(cells["domain"], cells["inlet"]) if inlet}) == 3
+    assert [bool(phase) for phase in cells["phase"]] == cells["inlet"]
+    # Width on record: what the polygons of the inlet's cells have of the wall.
+    place = O.bodies[["left", "right", "bottom", "top"].index(wall)].state.pos[1 - axis]
+    width = 0
+    for polygon, inlet in zip(cells["polygon"], cells["inlet"]):
+        on = [corner[axis] for corner in polygon if corner[1 - axis] == place]
+        width += max(on) - min(on) if inlet and on else 0
+    assert gas.inletWidth == pytest.approx(width, rel=1e-13)
+    assert gas.inletWidth == pytest.approx(gas.inletTo - gas.inletFrom, rel=1e-13)
+    assert abs(0.5 * (gas.inletFrom + gas.inletTo) - middle) < 4 * R  # as near to the middle as pores of 2-4 mm allow
+
+
+def wallExtent():
+    """Begin and end of the bottom wall [m]."""
+    return tuple(b.state.pos[0] for b in list(O.bodies)[:2])
+
+
+def test_inletOfTheWholeWall(rigid):
+    gas = rigid("settled", inletTo=1)
+    gas.inletFrom, gas.inletTo = wallExtent()
+    cells = gas.cells()
+    assert all(inlet for v, inlet in zip(cells["vertices"], cells["inlet"]) if 2 in v)
+    assert gas.inletWidth == pytest.approx(gas.inletTo - gas.inletFrom, rel=1e-13)
+
+
+def test_inletTakesPoresByTheirMiddle(rigid):
+    gas = rigid("settled", inletTo=1)
+    begin, end = gas.inletStretch(1, np.mean(wallExtent()))
+    for low, high, taken in ((0.45, 0.55, 1), (0.55, 0.9, 0)):
+        gas = rigid("settled", inletFrom=begin + low * (end - begin), inletTo=begin + high * (end - begin))
+        if taken:
+            gas.prepare()
+            assert gas.inletPores == taken and gas.inletWidth == pytest.approx(end - begin, rel=1e-12)
+        else:
+            with pytest.raises(ValueError, match="no inlet: no pore of the bottom wall has its middle between inletFrom and inletTo"):
+                gas.prepare()
+
+
+def test_inletOfPoints(rigid):
+    gas = rigid("settled", inletTo=1)
+    gas.inletFrom, gas.inletTo = wallExtent()
+    polygons = [np.array(polygon) for polygon in gas.cells()["polygon"]]
+    target = max(range(len(polygons)), key=lambda c: polygons[c][:, 1].min())  # the highest: certainly not at the inlet wall
+    gas = rigid("settled", inletPoints=[tuple(polygons[target].mean(axis=0))])
+    cells = gas.cells()
+    assert gas.inletPores == 1 and gas.inletWidth == 0
+    assert cells["inlet"][target] and cells["phase"][target] == 1
+    assert {cells["domain"][c] for c, inlet in enumerate(cells["inlet"]) if inlet} == {cells["domain"][target]}

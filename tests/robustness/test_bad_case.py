@@ -1,0 +1,138 @@
+"""Case files with mistakes: refused by the key's name with the value and what is allowed, before anything is done."""
+
+import re
+
+import numpy as np
+import pytest
+from yade import O
+
+from capfrac import case, injection, packing
+from capfrac.errors import CaseError
+
+GOOD = {"grains": {"rMin": 1e-3}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "inlet": {"pores": 3}, "ramp": {"start": 100, "increment": 1, "max": 200}}
+
+
+def changed(**entries):
+    """GOOD with other entries: section__key=value."""
+    raw = {section: dict(keys) for section, keys in GOOD.items()}
+    for name, value in entries.items():
+        section, key = name.split("__")
+        raw.setdefault(section, {})[key] = value
+    return raw
+
+
+BAD = [
+    # unknown
+    (dict(grain__rMin=1), r"unknown section \[grain\]; did you mean 'grains'\?"),
+    (dict(zebra__x=1), r"unknown section \[zebra\]; known: case, grains, stress"),
+    (dict(grains__rmin=1), r"unknown key grains.rmin; did you mean 'rMin'\?"),
+    (dict(ramp__quark=1), "unknown key ramp.quark; known: start, increment, max"),
+    # wrong type
+    (dict(grains__count=40.0), "grains.count = 40.0, allowed: a whole number >= 1"),
+    (dict(grains__count="40"), "grains.count = '40'"),
+    (dict(grains__count=True), "grains.count = True"),
+    (dict(grains__rMin="1 mm"), r"grains.rMin = '1 mm', allowed: a number > 0 \[m\]"),
+    (dict(gas__trapping=1), "gas.trapping = 1, allowed: true or false"),
+    (dict(case__title=3), "case.title = 3, allowed: a text"),
+    (dict(output__pressures=170), r"output.pressures = 170, allowed: a list \[Pa\]"),
+    # out of range
+    (dict(grains__count=0), "grains.count = 0"),
+    (dict(grains__rMin=0), r"grains.rMin = 0, allowed: a number > 0 \[m\]"),
+    (dict(grains__rMin=-1e-3), "grains.rMin = -0.001"),
+    (dict(grains__rMin=float("nan")), "grains.rMin = nan"),
+    (dict(grains__rMin=float("inf")), "grains.rMin = inf"),
+    (dict(grains__seed=-1), "grains.seed = -1, allowed: a whole number >= 0"),
+    (dict(stress__vertical=0), r"stress.vertical = 0, allowed: a number > 0 \[Pa\]"),
+    (dict(cohesion__chi=-1), "cohesion.chi = -1"),
+    (dict(gas__contactAngle=90), r"gas.contactAngle = 90, allowed: a number >= 0 and <= 89.9 \[degrees\]"),
+    (dict(gas__entryLaw="young"), "gas.entryLaw = 'young', allowed: 'inscribedSphere', 'mayerStowePrincen'"),
+    (dict(inlet__wall="floor"), "inlet.wall = 'floor', allowed: 'left', 'right', 'bottom', 'top'"),
+    (dict(ramp__increment=0), "ramp.increment = 0, allowed: a number > 0"),
+    (dict(output__pressures=[-1]), r"output.pressures = \[-1\], allowed: numbers >= 0 \[Pa\]"),
+    (dict(output__pressures=["x"]), r"output.pressures = \['x'\]"),
+    (dict(case__assumptions=[1]), "case.assumptions, allowed: a list of texts"),
+    # impossible together
+    (dict(grains__rMax=0.5e-3), "grains.rMax = 0.0005 m, allowed: >= grains.rMin = 0.001 m"),
+    (dict(grains__rMax=20e-3), "grains.rMax / grains.rMin = 20, allowed: up to 10"),
+    (dict(inlet__pores=0), "no inlet or several; give one of inlet.pores, inlet.from with inlet.to, inlet.points"),
+    (dict(inlet__points=[[1e-3, 1e-3]]), "no inlet or several"),
+    (dict(inlet__pores=0, inlet__from=1e-3), r"inlet.from = 0.001, inlet.to = None; allowed: both given, from < to"),
+    (dict(inlet__pores=0, inlet__from=2e-3, inlet__to=1e-3), "inlet.from = 0.002, inlet.to = 0.001"),
+    (dict(inlet__pores=0, inlet__points=[[1e-3]]), r"inlet.points holds \[0.001\], allowed: pairs \[x, y\] in metres"),
+    (dict(inlet__outlet="bottom"), "inlet.wall = inlet.outlet = 'bottom', allowed: two different walls"),
+    (dict(ramp__max=50), "ramp.max = 50.0 Pa, allowed: >= ramp.start = 100.0 Pa"),
+    (dict(ramp__minLevelSteps=30000), "ramp.maxLevelSteps = 20000, allowed: >= ramp.minLevelSteps = 30000"),
+    (dict(gas__entryLaw="mayerStowePrincen", gas__contactAngle=10), "gas.contactAngle = 10.0, allowed: 0 with gas.entryLaw = 'mayerStowePrincen'"),
+]
+
+
+def test_goodCaseIsGood():
+    resolved = case.resolveCase(GOOD)
+    assert resolved["grains"]["rMax"] == 2e-3 and resolved["grains"]["shearStiffness"] == 1e7
+
+
+@pytest.mark.parametrize("entries, message", BAD, ids=["-".join(entries) for entries, _ in BAD])
+def test_mistakeIsRefusedByName(entries, message, tmp_path):
+    with pytest.raises(CaseError, match=message):
+        injection.inject(changed(**entries), tmp_path / "run")
+    assert list(tmp_path.iterdir()) == [] and len(O.bodies) == 0
+
+
+@pytest.mark.parametrize("missing", ["grains.rMin", "stress.vertical", "stress.horizontal", "ramp.start", "ramp.increment", "ramp.max"])
+def test_missingKeyIsNamed(missing):
+    raw = changed()
+    section, key = missing.split(".")
+    del raw[section][key]
+    with pytest.raises(CaseError, match=f"{missing} is missing; needed: a number"):
+        case.resolveCase(raw)
+
+
+def test_caseFilesThatCannotBeRead(tmp_path):
+    with pytest.raises(CaseError, match="the case 'nowhere.toml' cannot be read .*; shipped cases: figure15, figure16, hydrate_ridge"):
+        case.readCase("nowhere.toml")
+    (tmp_path / "broken.toml").write_text("[grains\n")
+    with pytest.raises(CaseError, match="broken.toml is not valid TOML: "):
+        case.readCase(tmp_path / "broken.toml")
+    (tmp_path / "flat.toml").write_text("grains = 3\n")
+    for overrides in ([], ["grains.rMin=1"]):
+        with pytest.raises(CaseError, match="'grains' stands outside of a section"):
+            case.readCase(tmp_path / "flat.toml", overrides)
+    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
+    with pytest.raises(CaseError, match="bytes.toml is not a text in UTF-8"):
+        case.readCase(tmp_path / "bytes.toml")
+
+
+@pytest.mark.parametrize("override, message", [
+    ("grains.count", "'grains.count' is not of the form section.key=value"), ("count=3", "'count=3' is not of the form"),
+    ("inlet.wall=left", "inlet.wall = left: not a TOML value"), ("grains.cuont=3", "unknown key grains.cuont; did you mean 'count'")])
+def test_badOverrides(override, message):
+    with pytest.raises(CaseError, match=re.escape(message)):
+        case.readCase("figure15", [override])
+
+
+@pytest.mark.parametrize("text, message", [
+    ("x,y\n1,2\n", r"columns \['x', 'y'\], needed: x, y, r \(in metres\)"), ("", r"columns \[\], needed: x, y, r"), ("x,y,r\n", "holds no grains"),
+    ("x,y,r\n1,1,1\n1,2,zero\n", "grain 2 is .*zero.*, needed: three numbers x, y, r"), ("x,y,r\n1,1\n", "grain 1 is "),
+    ("x,y,r\n1,1,0\n", "grain 1 has x = 1.0, y = 1.0, r = 0.0; allowed: finite, r > 0"), ("x,y,r\n1,1,-1\n", "r = -1.0"), ("x,y,r\n1,nan,1\n", "y = nan")])
+def test_badPackings(tmp_path, text, message):
+    (tmp_path / "packing.csv").write_text(text)
+    with pytest.raises(CaseError, match=f"packing.csv: .*{message}"):
+        packing.readPacking(tmp_path / "packing.csv")
+    raw = changed(grains__packing=str(tmp_path / "packing.csv"))
+    with pytest.raises(CaseError, match=f"packing.csv: .*{message}"):
+        injection.inject(raw, tmp_path / "run")
+    assert not (tmp_path / "run").exists()
+
+
+def test_packingThatIsMissing(tmp_path):
+    with pytest.raises(CaseError, match="the packing .*nothing.csv cannot be read: No such file"):
+        injection.inject(changed(grains__packing=str(tmp_path / "nothing.csv")), tmp_path / "run")
+    assert not (tmp_path / "run").exists()
+
+
+def test_describeNamesEveryKeyWithItsUnit():
+    text = case.describeKeys()
+    for key in case.KEYS:
+        assert f"  {key.name} [{key.unit}]: " in text and key.meaning in text
+    lengths = np.array([len(key.meaning) for key in case.KEYS])
+    assert lengths.min() > 10
