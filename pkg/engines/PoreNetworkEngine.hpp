@@ -123,7 +123,7 @@ or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressure
 		((std::vector<Real>,savedPressures,,(Attr::hidden|Attr::readonly),"Fixed pressures of the cells [Pa], for saving."))
 		,,
 		.def("prepare",&PoreNetworkEngine::pyPrepare,"Build the network of the scene as it is, without a step; done by the first step otherwise. Every problem of the scene is reported here, and the scene is not changed. :raises RuntimeError: naming the body and what is wrong with it")
-		.def("cells",&PoreNetworkEngine::pyCells,"The cells as a dict of lists: ``vertices`` (body ids, three each), ``polygon`` (corners [m]), ``phase`` (0 water, 1 gas), ``pressure`` [Pa], ``void`` [m³], ``gas`` [m³], ``water`` [m³], ``domain`` [-], ``inlet`` (bool).")
+		.def("cells",&PoreNetworkEngine::pyCells,"The cells as a dict of lists: ``vertices`` (body ids, three each), ``polygon`` (corners [m]), ``phase`` (0 water, 1 gas), ``pressure`` [Pa], ``void`` [m³], ``gas`` [m³], ``water`` [m³], ``domain`` [-], ``inlet`` (bool). The sum of the voids is exact; a single one may be negative where a grain of a torn sample reaches through its cell into the next.")
 		.def("throats",&PoreNetworkEngine::pyThroats,"The edges of the network as a dict of lists: ``ids`` (two bodies), ``gap`` [m], ``open`` (joins the cells on its sides), ``cells`` (left and right, -1 outside), ``entryPressure`` [Pa] (NaN where the engine has none).")
 		.def("fluidForces",&PoreNetworkEngine::pyForces,"The forces of the fluids now, as a dict: body id -> (fx, fy) [N].")
 		.def("volumes",&PoreNetworkEngine::pyVolumes,"The ledger as a dict [m³]: ``void``, ``gas``, ``water``, ``gasIn``, ``waterIn``, ``initialVoid``, and ``error``, the relative difference between what is there and what came in.")

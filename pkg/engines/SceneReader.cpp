@@ -75,9 +75,13 @@ void SceneReader::read(const Scene& from)
 		const Vector3r& pos = body->state->pos;
 		const Real      radius = static_cast<const Sphere&>(*body->shape).radius;
 		// Contacts are three-dimensional, the network is not: off the plane they would disagree about gaps.
+		// (A radius that is no number is for checkGrains to name.)
 		const Real plane = (*from.bodies)[grainIds[0]]->state->pos[2];
-		if (!(math::abs(pos[2] - plane) <= 1e-9 * radius))
-			refuseBody(grainIds[i], "is off the plane of the model: z = " + std::to_string(pos[2]) + " m, the first grain has z = " + std::to_string(plane) + " m");
+		if (math::abs(pos[2] - plane) > 1e-9 * math::abs(radius)) {
+			std::ostringstream text;
+			text << "is off the plane of the model: z = " << pos[2] << " m, the first grain has z = " << plane << " m";
+			refuseBody(grainIds[i], text.str());
+		}
 		grains[i] = { { pos[0], pos[1] }, radius };
 	}
 	std::array<Real, capfrac::nWalls> at;

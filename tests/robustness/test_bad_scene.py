@@ -59,11 +59,7 @@ def everything(state):
     return repr(state)
 
 
-#: Findings of a grain that are masked by another one.
-MASKED = pytest.mark.xfail(strict=True, reason="a bad radius is reported as a grain off the plane (/tmp/engine_bugs.txt B10)")
-
-
-@pytest.mark.parametrize("name", [pytest.param(n, marks=MASKED if n in ("negative radius", "NaN radius") else []) for n in BROKEN])
+@pytest.mark.parametrize("name", BROKEN)
 @pytest.mark.parametrize("ask", [lambda: PoreNetworkEngine().prepare(), lambda: GasInvasionEngine(inletTo=R).prepare(),
                                  lambda: injection.startInjection(start=100, increment=1, max=200, pores=1, wall="bottom")],
                          ids=["network", "gas", "startInjection"])

@@ -17,6 +17,7 @@ FOLDER = Path(os.environ.get("CAPFRAC_VALIDATION_RUNS", ROOT / "build" / "valida
 SEEDS = (1, 2, 3, 4, 5)
 INLETS = (1, 3, 5, 9)
 STIFFNESSES = (1e7, 1e8, 1e9)
+STIFFNESS_SEEDS = SEEDS[:3]  # stiff samples take as many steps, but there are three stiffnesses of each
 
 #: For studies of the pressure at which the sample opens: from well below, to the gas at the outlet, no fields.
 TO_BREAKTHROUGH = {"ramp.start": 60e3, "ramp.max": 300e3, "ramp.endAt": '"breakthrough"', "output.pressures": "[]", "output.fields": "false"}
@@ -33,7 +34,7 @@ def inletRuns():
 
 def stiffnessRuns():
     return {f"kn{stiffness:.0e}-seed{seed}": ("figure16", {**TO_BREAKTHROUGH, "grains.seed": seed, "grains.normalStiffness": stiffness})
-            for stiffness in STIFFNESSES for seed in SEEDS}
+            for stiffness in STIFFNESSES for seed in STIFFNESS_SEEDS}
 
 
 def execute(runs, workers=2):
