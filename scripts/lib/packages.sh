@@ -16,8 +16,8 @@ YADE_BUILD_PACKAGES=(
 	python3-pygraphviz python3-pyqt5 python3-sphinx python3-tk python3-xlib
 )
 
-# The distribution's YADE, and what its headers include (it is built with MPI and OpenGL).
-YADE_PACKAGES=(yade freeglut3-dev libglu1-mesa-dev libopenmpi-dev)
+# The distribution's YADE, and what its headers include (it is built with MPI, OpenGL and MPC).
+YADE_PACKAGES=(yade freeglut3-dev libglu1-mesa-dev libmpc-dev libopenmpi-dev)
 
 missing_packages() {
 	local package
