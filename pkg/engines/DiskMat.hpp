@@ -32,7 +32,7 @@ class WallMat : public FrictMat {
 public:
 	virtual ~WallMat() = default;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(WallMat,FrictMat,R"""(Material of the walls of the box. See :yref:`Ip2_DiskMat_WallMat_CohFrictPhys` for the contacts.
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(WallMat,FrictMat,R"""(Material of the walls of the box. See :yref:`Ip2_WallMat_DiskMat_CohFrictPhys` for the contacts.
 
 The attribute ``frictionAngle`` [rad] is that between wall and grain; 0 gives a smooth wall, which carries no shear at all. A smooth wall with
 bonds is a plane of symmetry: the sediment goes on behind it as its mirror image.)""",

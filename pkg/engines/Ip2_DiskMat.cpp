@@ -6,7 +6,7 @@
 
 namespace yade {
 
-YADE_PLUGIN((Ip2_DiskMat_DiskMat_CohFrictPhys)(Ip2_DiskMat_WallMat_CohFrictPhys));
+YADE_PLUGIN((Ip2_DiskMat_DiskMat_CohFrictPhys)(Ip2_WallMat_DiskMat_CohFrictPhys));
 
 namespace {
 
@@ -82,13 +82,11 @@ int Ip2_DiskMat_DiskMat_CohFrictPhys::bondContacts()
 	return nBonded;
 }
 
-void Ip2_DiskMat_WallMat_CohFrictPhys::go(
-        const shared_ptr<Material>& b1, const shared_ptr<Material>& b2, const shared_ptr<Interaction>& interaction)
+void Ip2_WallMat_DiskMat_CohFrictPhys::go(
+        const shared_ptr<Material>& b1, const shared_ptr<Material>&, const shared_ptr<Interaction>& interaction)
 {
 	if (interaction->phys) return;
-	// The dispatcher is symmetric: which of the two is the wall depends on the geometry functor.
-	auto wall = YADE_PTR_DYN_CAST<WallMat>(b1);
-	if (!wall) wall = YADE_PTR_CAST<WallMat>(b2);
+	const auto wall = YADE_PTR_CAST<WallMat>(b1);
 	// Without friction there is no shear stiffness either: the law then leaves shear alone, bonded or not.
 	interaction->phys = unbonded(wall->normalStiffness, wall->frictionAngle > 0 ? wall->shearStiffness : 0, wall->frictionAngle);
 }

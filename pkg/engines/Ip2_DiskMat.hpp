@@ -26,16 +26,17 @@ The forces themselves are those of :yref:`Law2_ScGeom6D_CohFrictPhys_CohesionMom
 };
 REGISTER_SERIALIZABLE(Ip2_DiskMat_DiskMat_CohFrictPhys);
 
-class Ip2_DiskMat_WallMat_CohFrictPhys : public IPhysFunctor {
+class Ip2_WallMat_DiskMat_CohFrictPhys : public IPhysFunctor {
 public:
 	void go(const shared_ptr<Material>& b1, const shared_ptr<Material>& b2, const shared_ptr<Interaction>& interaction) override;
-	FUNCTOR2D(DiskMat, WallMat);
+	// Wall first, as Ig2_Wall_Sphere_ScGeom6D has it: a YADE with assertions stops where a functor would have to swap.
+	FUNCTOR2D(WallMat, DiskMat);
 	// clang-format off
-	YADE_CLASS_BASE_DOC(Ip2_DiskMat_WallMat_CohFrictPhys,IPhysFunctor,R"""(Contact of a grain with a wall: the constant stiffnesses of :yref:`WallMat` (no shear stiffness where the wall is smooth) and its friction.
+	YADE_CLASS_BASE_DOC(Ip2_WallMat_DiskMat_CohFrictPhys,IPhysFunctor,R"""(Contact of a grain with a wall: the constant stiffnesses of :yref:`WallMat` (no shear stiffness where the wall is smooth) and its friction.
 
 Made for :yref:`Ig2_Wall_Sphere_ScGeom6D`. :yref:`bondContacts<Ip2_DiskMat_DiskMat_CohFrictPhys.bondContacts>` bonds it like a contact of grains, with the strength of the grain.)""");
 	// clang-format on
 };
-REGISTER_SERIALIZABLE(Ip2_DiskMat_WallMat_CohFrictPhys);
+REGISTER_SERIALIZABLE(Ip2_WallMat_DiskMat_CohFrictPhys);
 
 } // namespace yade

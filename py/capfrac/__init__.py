@@ -3,7 +3,7 @@
 An extension of YADE. ``import capfrac`` in a YADE script or session adds the classes
 
 * ``DiskMat``, ``WallMat``: materials of the grains (disks) and of the box,
-* ``Ip2_DiskMat_DiskMat_CohFrictPhys``, ``Ip2_DiskMat_WallMat_CohFrictPhys``, ``Ig2_Wall_Sphere_ScGeom6D``:
+* ``Ip2_DiskMat_DiskMat_CohFrictPhys``, ``Ip2_WallMat_DiskMat_CohFrictPhys``, ``Ig2_Wall_Sphere_ScGeom6D``:
   their contacts,
 * ``PoreNetworkEngine``, ``GasInvasionEngine``: the pores, and gas that enters them,
 * ``WallServoEngine``: walls that hold stresses,
@@ -46,7 +46,7 @@ def load_engines():
             f"capfrac's engines cannot be loaded ({problem}); start Python with `capfrac python`, "
             "or YADE with `capfrac yade`, which know where everything is"
         ) from problem
-    names = ["DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_DiskMat_WallMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D",
+    names = ["DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D",
              "PoreNetworkEngine", "GasInvasionEngine", "WallServoEngine"]
     main = importlib.import_module("__main__")
     for name in names:

@@ -73,7 +73,7 @@ def buildScene(sample, x, y, radii, box):
     from yade import O, Sphere, utils
     from yade.wrapper import (Bo1_Sphere_Aabb, Bo1_Wall_Aabb, DiskMat, ForceResetter, Ig2_Sphere_Sphere_ScGeom6D,
                               Ig2_Wall_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop,
-                              Ip2_DiskMat_DiskMat_CohFrictPhys, Ip2_DiskMat_WallMat_CohFrictPhys,
+                              Ip2_DiskMat_DiskMat_CohFrictPhys, Ip2_WallMat_DiskMat_CohFrictPhys,
                               Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
                               NewtonIntegrator, WallMat, WallServoEngine)
 
@@ -101,7 +101,7 @@ def buildScene(sample, x, y, radii, box):
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * sample.rMin, label="collider"),
         InteractionLoop([Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Wall_Sphere_ScGeom6D()],
-                        [Ip2_DiskMat_DiskMat_CohFrictPhys(label="bonds"), Ip2_DiskMat_WallMat_CohFrictPhys()],
+                        [Ip2_DiskMat_DiskMat_CohFrictPhys(label="bonds"), Ip2_WallMat_DiskMat_CohFrictPhys()],
                         [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]),
         WallServoEngine(dead=True, label="servo"),
         NewtonIntegrator(damping=SETTLING_DAMPING, label="newton"),

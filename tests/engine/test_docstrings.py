@@ -11,7 +11,7 @@ import yade.wrapper as wrapper
 
 import capfrac
 
-CLASSES = ["DiskMat", "WallMat", "Ig2_Wall_Sphere_ScGeom6D", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_DiskMat_WallMat_CohFrictPhys",
+CLASSES = ["DiskMat", "WallMat", "Ig2_Wall_Sphere_ScGeom6D", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys",
            "PoreNetworkEngine", "GasInvasionEngine", "WallServoEngine"]
 HEADERS = sorted((Path(__file__).resolve().parents[2] / "pkg" / "engines").glob("*.hpp"))
 #: ((type,name,default,flags,"documentation")) as YADE's class macros have it.

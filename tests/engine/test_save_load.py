@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from yade import O
 from yade.wrapper import (DiskMat, GasInvasionEngine, Ig2_Wall_Sphere_ScGeom6D, InteractionLoop, Ip2_DiskMat_DiskMat_CohFrictPhys,
-                          Ip2_DiskMat_WallMat_CohFrictPhys, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, PoreNetworkEngine, WallMat, WallServoEngine)
+                          Ip2_WallMat_DiskMat_CohFrictPhys, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, PoreNetworkEngine, WallMat, WallServoEngine)
 
 from capfrac import injection, sediment
 
@@ -149,7 +149,7 @@ def test_functorsAndBondsAreKept(loadSample, tmp_path):
     reload(tmp_path)
     assert contacts() == before
     loop = next(e for e in O.engines if isinstance(e, InteractionLoop))
-    assert {type(f) for f in loop.physDispatcher.functors} == {Ip2_DiskMat_DiskMat_CohFrictPhys, Ip2_DiskMat_WallMat_CohFrictPhys}
+    assert {type(f) for f in loop.physDispatcher.functors} == {Ip2_DiskMat_DiskMat_CohFrictPhys, Ip2_WallMat_DiskMat_CohFrictPhys}
     assert Ig2_Wall_Sphere_ScGeom6D in {type(f) for f in loop.geomDispatcher.functors}
     assert {type(f) for f in loop.lawDispatcher.functors} == {Law2_ScGeom6D_CohFrictPhys_CohesionMoment}
     assert sediment.engine("bonds").thickness == 0.5
