@@ -21,10 +21,8 @@ def _parser():
     inject.add_argument("-q", "--quiet", action="store_true", help="no progress, only the result")
     commands.add_parser("cases", help="list the shipped cases")
     commands.add_parser("describe", help="list every key of a case file with its unit, default and meaning")
-    python = commands.add_parser("python", help="Python with YADE and capfrac at hand", add_help=False)
-    python.add_argument("arguments", nargs=argparse.REMAINDER)
-    yade = commands.add_parser("yade", help="YADE, with capfrac at hand (`import capfrac` in it)", add_help=False)
-    yade.add_argument("arguments", nargs=argparse.REMAINDER)
+    commands.add_parser("python", help="Python with YADE and capfrac at hand; takes Python's arguments", add_help=False)
+    commands.add_parser("yade", help="YADE, with capfrac at hand (`import capfrac` in it); takes YADE's arguments", add_help=False)
     return parser
 
 
@@ -103,13 +101,18 @@ def _yade(arguments):
     found = sorted(glob.glob(os.path.join(config.prefix, "bin", f"yade{config.suffix}")))
     if not found:
         raise CapfracError(f"there is no yade{config.suffix} in {config.prefix}/bin")
-    os.execv(found[0], [found[0], *arguments])
+    os.execv(found[0], [found[0], *arguments])  # replaces this process
 
 
 def main(argv=None):
     """Run the command; returns its exit status (see the module)."""
-    arguments = _parser().parse_args(argv)
+    argv = sys.argv[1:] if argv is None else list(argv)
+    # Their arguments belong to other programs: argparse must not see them.
+    passed = {"python": lambda rest: os.execv(sys.executable, [sys.executable, *rest]), "yade": _yade}.get(argv[0] if argv else "")
+    arguments = None if passed else _parser().parse_args(argv)
     try:
+        if passed:
+            return passed(argv[1:])
         if arguments.command == "inject":
             return _inject(arguments)
         if arguments.command == "cases":
@@ -119,9 +122,7 @@ def main(argv=None):
 
             print(describeKeys())
             return 0
-        if arguments.command == "python":
-            os.execv(sys.executable, [sys.executable, *arguments.arguments])
-        return _yade(arguments.arguments)
+        raise AssertionError(arguments.command)
     except CapfracError as problem:
         print(f"capfrac: error: {problem}", file=sys.stderr)
         return 1
