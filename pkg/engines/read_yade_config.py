@@ -15,7 +15,9 @@ import sys
 
 
 def main(prefix, suffix=""):
-    found = sorted(glob.glob(os.path.join(prefix, "lib*", "**", f"yade{suffix or '*'}", "py", "yade", "config.py"), recursive=True))
+    # Two depths, no deeper: lib/yade and lib/x86_64-linux-gnu/yade; all of /usr/lib would take minutes.
+    tail = os.path.join(f"yade{suffix or '*'}", "py", "yade", "config.py")
+    found = sorted(glob.glob(os.path.join(prefix, "lib*", tail)) + glob.glob(os.path.join(prefix, "lib*", "*", tail)))
     if not found:
         sys.exit(f"there is no YADE below {prefix} (no lib/…/yade{suffix or '*'}/py/yade/config.py)")
     os.environ.pop("YADE_PREFIX", None)  # it would override the prefix that the file itself knows
