@@ -5,6 +5,7 @@ command itself start it as a process of its own (tests/robustness).
 """
 
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -29,6 +30,8 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
+    # Started in the background of a script, pytest inherits an ignored SIGINT and would hand it on to what it starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     config.addinivalue_line("markers", "validation: long comparison with published results; only with --validation")
 
 

@@ -17,7 +17,7 @@ FOLDER = Path(os.environ.get("CAPFRAC_VALIDATION_RUNS", ROOT / "build" / "valida
 SEEDS = (1, 2, 3, 4, 5)
 INLETS = (1, 3, 5, 9)
 STIFFNESSES = (1e7, 1e8, 1e9)
-STIFFNESS_SEEDS = SEEDS[:3]  # stiff samples take as many steps, but there are three stiffnesses of each
+STIFFNESS_SEEDS = SEEDS[:2]  # enough to see a trend; a minute and more each
 
 #: For studies of the pressure at which the sample opens: from well below, to the gas at the outlet, no fields.
 TO_BREAKTHROUGH = {"ramp.start": 60e3, "ramp.max": 300e3, "ramp.endAt": '"breakthrough"', "output.pressures": "[]", "output.fields": "false"}
