@@ -13,6 +13,8 @@ from pathlib import Path
 from capfrac.errors import CaseError
 
 REQUIRED = object()
+#: Largest ratio of grain radii that a case may have [-]: entry pressures and domains are meant for narrow distributions.
+MAX_SIZE_RATIO = 10
 
 
 @dataclass(frozen=True)
@@ -196,8 +198,8 @@ def _checkTogether(case, source):
         grains["shearStiffness"] = grains["normalStiffness"]
     if grains["rMax"] < grains["rMin"]:
         raise CaseError(f"{source}: grains.rMax = {grains['rMax']} m, allowed: >= grains.rMin = {grains['rMin']} m")
-    if grains["rMax"] > 10 * grains["rMin"]:
-        raise CaseError(f"{source}: grains.rMax / grains.rMin = {grains['rMax'] / grains['rMin']:g}, allowed: up to 10 (narrow distributions)")
+    if grains["rMax"] > MAX_SIZE_RATIO * grains["rMin"]:
+        raise CaseError(f"{source}: grains.rMax / grains.rMin = {grains['rMax'] / grains['rMin']:g}, allowed: up to {MAX_SIZE_RATIO} (narrow distributions)")
     ways = [bool(inlet["pores"]), inlet["from"] is not None or inlet["to"] is not None, bool(inlet["points"])]
     if sum(ways) != 1:
         raise CaseError(f"{source}: no inlet or several; give one of inlet.pores, inlet.from with inlet.to, inlet.points")

@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from capfrac import export, figures, mode, sediment, snapshot
-from capfrac.case import readCase, resolveCase
+from capfrac.case import MAX_SIZE_RATIO, readCase, resolveCase
 from capfrac.errors import CaseError, RunFolderError, SceneError
 from capfrac.runfolder import RunFolder
 
@@ -76,8 +76,8 @@ def _makeSample(case, say):
     if grains["packing"]:
         packing = sediment.readPacking(Path(case["case"].get("folder", ".")) / grains["packing"])
         grains["rMin"], grains["rMax"] = float(packing[2].min()), float(packing[2].max())
-        if grains["rMax"] > 10 * grains["rMin"]:
-            raise CaseError(f"{grains['packing']}: radii from {grains['rMin']:g} to {grains['rMax']:g} m, a ratio of {grains['rMax'] / grains['rMin']:.3g}; allowed: up to 10")
+        if grains["rMax"] > MAX_SIZE_RATIO * grains["rMin"]:
+            raise CaseError(f"{grains['packing']}: radii from {grains['rMin']:g} to {grains['rMax']:g} m, a ratio of {grains['rMax'] / grains['rMin']:.3g}; allowed: up to {MAX_SIZE_RATIO}")
     sample = sediment.Sediment(
         grainCount=grains["count"] if packing is None else len(packing[0]),
         **{name: grains[name] for name in ("rMin", "rMax", "seed", "density", "normalStiffness", "shearStiffness", "friction", "wallFriction", "aspect")})
