@@ -5,20 +5,24 @@ namespace yade {
 
 YADE_PLUGIN((DiskMat)(WallMat));
 
-void DiskMat::postLoad(DiskMat&)
+void DiskMat::guardAttributes()
 {
-	capfrac::requirePositive("DiskMat.normalStiffness [N/m]", normalStiffness);
-	capfrac::requireNotNegative("DiskMat.shearStiffness [N/m]", shearStiffness);
-	capfrac::requireNotNegative("DiskMat.tensileStrength [Pa]", tensileStrength);
-	capfrac::requireNotNegative("DiskMat.shearStrength [Pa]", shearStrength);
-	capfrac::requireNotNegative("DiskMat.capillaryStrength [N/m]", capillaryStrength);
+	accepted.guard(std::tie(normalStiffness, shearStiffness, tensileStrength, shearStrength, capillaryStrength), [this] {
+		capfrac::requirePositive("DiskMat.normalStiffness [N/m]", normalStiffness);
+		capfrac::requireNotNegative("DiskMat.shearStiffness [N/m]", shearStiffness);
+		capfrac::requireNotNegative("DiskMat.tensileStrength [Pa]", tensileStrength);
+		capfrac::requireNotNegative("DiskMat.shearStrength [Pa]", shearStrength);
+		capfrac::requireNotNegative("DiskMat.capillaryStrength [N/m]", capillaryStrength);
+	});
 }
 
-void WallMat::postLoad(WallMat&)
+void WallMat::guardAttributes()
 {
-	capfrac::requirePositive("WallMat.normalStiffness [N/m]", normalStiffness);
-	capfrac::requireNotNegative("WallMat.shearStiffness [N/m]", shearStiffness);
-	capfrac::requireNotNegative("WallMat.bondFactor [-]", bondFactor);
+	accepted.guard(std::tie(normalStiffness, shearStiffness, bondFactor), [this] {
+		capfrac::requirePositive("WallMat.normalStiffness [N/m]", normalStiffness);
+		capfrac::requireNotNegative("WallMat.shearStiffness [N/m]", shearStiffness);
+		capfrac::requireNotNegative("WallMat.bondFactor [-]", bondFactor);
+	});
 }
 
 } // namespace yade

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "Attributes.hpp"
+
 #include <pkg/common/ElastMat.hpp>
 #include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
 
@@ -21,10 +23,16 @@ Contacts are made by :yref:`Ip2_DiskMat_DiskMat_CohFrictPhys`. The attribute ``d
 		((Real,capillaryStrength,0,Attr::triggerPostLoad,"Part of both strengths that is inversely proportional to the radius, times that radius [N/m], >= 0: $\\chi\\gamma$ for $\\sigma_c = \\chi\\gamma/r$ (the paper takes $\\chi = 10$)."))
 		,
 		createIndex();
+		guardAttributes();
 	);
 	// clang-format on
-	void postLoad(DiskMat&);
+	void postLoad(DiskMat&) { guardAttributes(); }
 	REGISTER_CLASS_INDEX(DiskMat, CohFrictMat);
+
+private:
+	/// Refuses values out of their range and goes back to the last ones that were not.
+	void              guardAttributes();
+	capfrac::Accepted accepted;
 };
 REGISTER_SERIALIZABLE(DiskMat);
 
@@ -41,10 +49,16 @@ bonds is a plane of symmetry: the sediment goes on behind it as its mirror image
 		((Real,bondFactor,100,Attr::triggerPostLoad,"Strength of a bond to the wall over that of a bond between grains [-], >= 0; 0: grains are not bonded to it. Large by default, because the wall is no part of the sample: gas shall part the sediment, not lift a cohesive sample off its floor."))
 		,
 		createIndex();
+		guardAttributes();
 	);
 	// clang-format on
-	void postLoad(WallMat&);
+	void postLoad(WallMat&) { guardAttributes(); }
 	REGISTER_CLASS_INDEX(WallMat, FrictMat);
+
+private:
+	/// As in DiskMat.
+	void              guardAttributes();
+	capfrac::Accepted accepted;
 };
 REGISTER_SERIALIZABLE(WallMat);
 

@@ -30,6 +30,17 @@ void GasInvasionEngine::checkAttributes() const
 	requirePositive("restDisplacement [-]", restDisplacement);
 	wallFromName("inletWall", inletWall);
 	wallFromName("outletWall", outletWall);
+	if (invasionInterval < 0) refuseAttribute("invasionInterval [-]", invasionInterval, ">= 0");
+}
+
+void GasInvasionEngine::guardAttributes()
+{
+	accepted.guard(
+	        std::tie(
+	                interfacialTension, contactAngle, entryLaw, gasPressure, pressureIncrement, maxPressure, unbalancedTolerance, minLevelSteps,
+	                maxLevelSteps, openingThreshold, restDisplacement, inletWall, outletWall, invasionInterval),
+	        [this] { GasInvasionEngine::checkAttributes(); });
+	law = capfrac::entryLawFromName(entryLaw);
 }
 
 // --- the inlet ------------------------------------------------------------------------------------
@@ -82,8 +93,8 @@ void GasInvasionEngine::startFluids()
 				if (std::binary_search(inlet.begin(), inlet.end(), stretch.domain)) inletWidth += stretch.to - stretch.from;
 		for (int d : inlet) {
 			fillWithGas(d);
-			for (std::size_t c = 0; c < domains.ofCell.size(); ++c)
-				if (domains.ofCell[c] == d) contents.source[c] = 1;
+			for (int c : domains.cellsOf(d))
+				contents.source[c] = 1;
 		}
 	} catch (...) {
 		mesh = {}; // the network is not there until it has an inlet
@@ -115,7 +126,7 @@ Real GasInvasionEngine::throatEntryPressure(int e) const
 	const Real gap  = wall ? 2 * gaps[e] : gaps[e];
 	const Real r    = wall ? a.radius : 0.5 * (a.radius + reader.grains[edge.b].radius);
 	try {
-		return capfrac::entryPressure(capfrac::entryLawFromName(entryLaw), gap, r, interfacialTension, contactAngle);
+		return capfrac::entryPressure(law, gap, r, interfacialTension, contactAngle);
 	} catch (const capfrac::EntryLawError& error) {
 		throw std::runtime_error(
 		        getClassName() + " " + whenInLoop(*scene) + "throat between bodies #" + std::to_string(reader.bodyOf(edge.a)) + " and #"
@@ -167,14 +178,19 @@ void GasInvasionEngine::advanceFluids()
 {
 	if (levelStart < 0) levelStart = static_cast<int>(scene->iter);
 	if (gasPressure < waterPressure) capfrac::refuseAttribute("gasPressure [Pa]", gasPressure, ">= waterPressure");
-	if (gasCanAdvance()) avalanche();
+	if (mayInvade() && gasCanAdvance()) avalanche();
+}
+
+bool GasInvasionEngine::mayInvade() const
+{
+	return invasionInterval == 0 || lastEventIter < 0 || scene->iter - lastEventIter >= invasionInterval;
 }
 
 void GasInvasionEngine::avalanche()
 {
 	syncContents();
 	const auto network  = drainageNetwork();
-	const auto drainage = capfrac::drain(network, capillaryPressure(), trapping);
+	const auto drainage = capfrac::drain(network, capillaryPressure(), trapping, invasionInterval > 0 ? 1 : std::numeric_limits<int>::max());
 	nTrappedWater       = static_cast<int>(drainage.trapped.size());
 	nDetachedGas        = 0;
 	for (int d = 0; d < domains.count; ++d)
@@ -193,8 +209,7 @@ void GasInvasionEngine::avalanche()
 
 void GasInvasionEngine::fillWithGas(int domain)
 {
-	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-		if (domains.ofCell[c] != domain) continue;
+	for (int c : domains.cellsOf(domain)) {
 		waterIn -= thickness * contents.water[c];
 		gasIn += thickness * contents.water[c];
 		contents.gas[c] += contents.water[c];
@@ -215,10 +230,9 @@ void GasInvasionEngine::record(const capfrac::DrainageNetwork& network, const ca
 	Real        volume = 0;
 	int         cells  = 0;
 	capfrac::Vec2 place;
-	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-		if (domains.ofCell[c] != step.domain) continue;
+	for (int c : domains.cellsOf(step.domain)) {
 		volume += thickness * contents.water[c];
-		place += capfrac::cellCentre(mesh, static_cast<int>(c), reader.grains, reader.box);
+		place += capfrac::cellCentre(mesh, c, reader.grains, reader.box);
 		++cells;
 	}
 	const auto& v = mesh.cells[first].vertex;
@@ -234,10 +248,9 @@ void GasInvasionEngine::record(const capfrac::DrainageNetwork& network, const ca
 
 bool GasInvasionEngine::touches(int domain, int wall) const
 {
-	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-		if (domains.ofCell[c] == domain)
-			for (int v : mesh.cells[c].vertex)
-				if (v == mesh.nGrains + wall) return true;
+	for (int c : domains.cellsOf(domain))
+		for (int v : mesh.cells[c].vertex)
+			if (v == mesh.nGrains + wall) return true;
 	return false;
 }
 
@@ -263,11 +276,12 @@ void GasInvasionEngine::checkInvariantsNow(const capfrac::DrainageNetwork& netwo
 		const auto& throat = network.throats[step.throat];
 		const int   from   = throat.left == step.domain ? throat.right : throat.left;
 		if (throat.entryPressure > capillaryPressure()) fail("a throat opened below its entry pressure");
+		if (!after.injected[from]) after.injected = capfrac::connectedGas(after, after.injected); // gas that was met
 		if (!after.injected[from]) fail("gas advanced from a pore that does not hang on the inlet");
 		if (after.gas[step.domain]) fail("a pore was invaded twice");
 		after.gas[step.domain] = after.injected[step.domain] = 1;
 	}
-	if (!trapping && capfrac::nextEntryPressure(after) <= capillaryPressure()) fail("the avalanche stopped before its end");
+	if (!trapping && invasionInterval == 0 && capfrac::nextEntryPressure(after) <= capillaryPressure()) fail("the avalanche stopped before its end");
 	const Real books = math::abs(thickness * contents.totalGas() - gasIn) + math::abs(thickness * contents.totalWater() - initialVoid - waterIn);
 	if (books > 1e-10 * initialVoid) fail("gas and water do not add up to what entered and left");
 }
@@ -287,7 +301,7 @@ void GasInvasionEngine::finishStep()
 	constexpr int checkPeriod = 10; // the check costs about as much as the rest of the engine
 	if (rampDone || scene->iter % checkPeriod != 0) return;
 	const int steps = static_cast<int>(scene->iter) - std::max(levelStart, lastEventIter);
-	if (steps < minLevelSteps) return;
+	if (steps < std::max(minLevelSteps, invasionInterval)) return;
 	scene->forces.sync();
 	const bool atRest = wallsAtRest() && unbalanced() < unbalancedTolerance;
 	if (!atRest && static_cast<int>(scene->iter) - levelStart < maxLevelSteps) return;

@@ -26,14 +26,10 @@ protected:
 	void startFluids() override;
 	void finishStep() override;
 	void checkAttributes() const override;
+	void guardAttributes();
 	Real reportedEntryPressure(int edge) const override;
 
 private:
-	/// A pair of bodies and their bond when the invasion began.
-	struct Bond {
-		Body::id_t a, b;
-	};
-
 	Real                     capillaryPressure() const { return gasPressure - waterPressure; }
 	Real                     throatEntryPressure(int edge) const;
 	bool                     gasCanAdvance() const;
@@ -42,6 +38,7 @@ private:
 	void                     record(const capfrac::DrainageNetwork& network, const capfrac::DrainageStep& step);
 	void                     fillWithGas(int domain);
 	bool                     touches(int domain, int wall) const;
+	bool                     mayInvade() const;
 	std::vector<int>         inletDomains() const;
 	void                     checkInlet() const;
 	void                     noteBreakthrough();
@@ -57,6 +54,7 @@ private:
 	void                     closeLevel(bool balanced);
 
 	capfrac::EntryLaw                law = capfrac::EntryLaw::inscribedSphere;
+	capfrac::Accepted                accepted;
 	std::vector<capfrac::Disk>       startGrains; ///< the grains when the invasion began
 	capfrac::Box                     startBox;
 
@@ -65,7 +63,7 @@ public:
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GasInvasionEngine,PoreNetworkEngine,R"""(Gas under a slowly rising pressure enters a water-filled, deformable sediment: capillary invasion, fracture, or both.
 
 Every step: the network follows the grains (:yref:`PoreNetworkEngine`); gas that hangs on the inlet advances through every throat whose entry pressure, Eq. 15 of
-[Jain2008]_ (corrected) with the gap as it is now, does not exceed $P_c = p_g - p_w$, the lowest first, until none is left; gas pores then load the grains with $p_g$, water
+[Jain2008]_ (corrected) with the gap as it is now, does not exceed $P_c = p_g - p_w$, the lowest first, until none is left (or one pore at a time: :yref:`invasionInterval<GasInvasionEngine.invasionInterval>`); gas pores then load the grains with $p_g$, water
 pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngine.pressureIncrement>` whenever the grains are at rest. Water is drained
 (its pressure is constant), the gas weightless and inviscid; no imbibition. Whether grains are pushed apart is decided by the contacts alone.)""",
 		((Real,interfacialTension,0.05,Attr::triggerPostLoad,"Interfacial tension $\\gamma$ of gas and water [N/m], > 0."))
@@ -84,6 +82,7 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((std::string,outletWall,"top",Attr::triggerPostLoad,"Wall through which the water leaves; gas that reaches it has broken through [-]."))
 		((bool,trapping,false,,"Whether water that is cut off from the outlet stays (true) or drains by films (false) [-]."))
 		((Real,openingThreshold,0.01,Attr::triggerPostLoad,"A throat counts as opened, not rigid, when its gap has grown by more than this many mean radii since the start, or its bond is broken [-], > 0."))
+		((int,invasionInterval,0,Attr::triggerPostLoad,"Steps between one invaded pore and the next [-], >= 0. 0: the grains stand still during an avalanche, as in a rigid sediment. Otherwise the grains answer to each pore before the gas takes the next one, and a throat that opens at a fracture's tip comes before a rigid one with a higher entry pressure."))
 		((bool,checkInvariants,false,,"Check after each avalanche that no throat opened below its entry pressure, that all gas hangs on the inlet or is trapped, and that every pore is counted once; throws otherwise."))
 		((int,inletPores,0,Attr::readonly,"Number of domains that the inlet fills at the start |yupdate| [-]."))
 		((Real,inletWidth,0,Attr::readonly,"Width of the wall that those domains cover [m] |yupdate|; 0 for points."))
@@ -110,7 +109,9 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((std::vector<Vector2r>,eventPlaces,,(Attr::hidden|Attr::readonly),"Where the entered pores are [m]."))
 		((std::vector<Vector6r>,levelNumbers,,(Attr::hidden|Attr::readonly),"Pressure, saturation, unbalanced force, displacement of loaded grains, of all grains, gas volume at the end of each level."))
 		((std::vector<Vector3i>,levelCounts,,(Attr::hidden|Attr::readonly),"Last iteration, broken bonds, whether at rest, of each level."))
-		,,
+		,
+		guardAttributes();
+		,
 		.def("events",&GasInvasionEngine::pyEvents,"The log of all invasions as a dict of lists: ``time`` [s], ``iteration``, ``level``, ``gasPressure`` [Pa], ``throat`` (two body ids), ``pore`` (body ids of its first cell), ``x``, ``y`` [m], ``entryPressure`` [Pa], ``gap`` [m], ``gapGrowth`` [m] since the start, ``bondBroken``, ``opened`` (bool), ``cells``, ``volume`` [m³].")
 		.def("levels",&GasInvasionEngine::pyLevels,"The finished pressure levels as a dict of lists: ``pressure`` [Pa], ``gasSaturation`` [-], ``brokenBonds``, ``displacement`` and ``displacementWithRattlers`` (largest so far over the grain's radius [-]), ``unbalanced`` [-], ``atRest`` (bool), ``iteration``, ``gasVolume`` [m³].")
 		.def("inletStretch",&GasInvasionEngine::pyInletStretch,(boost::python::arg("nPores"),boost::python::arg("centre")),"The stretch of the inlet wall that nPores neighbouring pores cover, as near to the coordinate `centre` [m] as there are: (from, to) [m]. :raises ValueError: when the wall has fewer pores")

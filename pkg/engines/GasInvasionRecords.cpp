@@ -124,7 +124,7 @@ void GasInvasionEngine::preSave(GasInvasionEngine&)
 
 void GasInvasionEngine::postLoad(GasInvasionEngine&)
 {
-	checkAttributes();
+	guardAttributes();
 	restore();
 	if (gasPressure < maxPressure) rampDone = false; // a ramp whose end was moved up goes on
 	if (savedStart.empty() || !startGrains.empty()) return;
@@ -190,10 +190,7 @@ py::tuple GasInvasionEngine::pyInletStretch(int nPores, Real centre)
 	scene = Omega::instance().getScene().get();
 	// A network of the present scene, aside: the stretch is asked for before there is an inlet.
 	SceneReader fresh;
-	const auto  freshMesh = namingBodies(fresh, [&] {
-                fresh.find(*scene);
-                return capfrac::triangulate(fresh.grains, fresh.box);
-        });
+	const auto  freshMesh = readScene(fresh);
 	std::vector<double> freshGaps;
 	Real                smallest = fresh.grains[0].radius;
 	for (const auto& g : fresh.grains)

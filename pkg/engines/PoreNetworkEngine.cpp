@@ -33,6 +33,13 @@ void PoreNetworkEngine::checkAttributes() const
 	requireFinite("waterPressure [Pa]", waterPressure);
 }
 
+void PoreNetworkEngine::guardAttributes()
+{
+	accepted.guard(
+	        std::tie(poreMode, mergeTolerance, mergeHysteresis, remeshDisplacement, maxSizeRatio, thickness, waterPressure),
+	        [this] { PoreNetworkEngine::checkAttributes(); });
+}
+
 void PoreNetworkEngine::prepare()
 {
 	checkAttributes();
@@ -44,13 +51,8 @@ void PoreNetworkEngine::build()
 {
 	// Everything is made aside first: a scene that is refused leaves the engine as it was.
 	SceneReader fresh;
-	auto        freshMesh = namingBodies(fresh, [&] {
-                fresh.find(*scene);
-                capfrac::checkGrains(fresh.grains, fresh.box);
-                checkSizes(fresh);
-                checkTimeStep();
-                return capfrac::triangulate(fresh.grains, fresh.box);
-        });
+	auto        freshMesh = readScene(fresh);
+	namingBodies(fresh, [&] { checkTimeStep(); });
 	reader        = std::move(fresh);
 	mesh          = std::move(freshMesh);
 	contents      = capfrac::waterFilled(currentVoids());
@@ -63,6 +65,16 @@ void PoreNetworkEngine::build()
 	updateGaps();
 	findDomains();
 	startFluids();
+}
+
+capfrac::Triangulation PoreNetworkEngine::readScene(SceneReader& fresh) const
+{
+	return namingBodies(fresh, [&] {
+		fresh.find(*scene);
+		capfrac::checkGrains(fresh.grains, fresh.box);
+		checkSizes(fresh);
+		return capfrac::triangulate(fresh.grains, fresh.box);
+	});
 }
 
 void PoreNetworkEngine::checkSizes(const SceneReader& from) const
@@ -241,7 +253,7 @@ void PoreNetworkEngine::restore()
 
 void PoreNetworkEngine::postLoad(PoreNetworkEngine&)
 {
-	checkAttributes();
+	guardAttributes();
 	restore();
 	domains = {}; // poreMode and the tolerances may have changed: update() finds them anew
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Attributes.hpp"
 #include "SceneReader.hpp"
 
 #include "../network/Domains.hpp"
@@ -78,8 +79,12 @@ protected:
 		}
 	}
 
+	/// Finds and checks the grains of the scene and triangulates them, aside from the engine's own network.
+	capfrac::Triangulation readScene(SceneReader& fresh) const;
+
 private:
 	void                   build();
+	void                   guardAttributes();
 	void                   remesh();
 	void                   updateGaps();
 	void                   checkSizes(const SceneReader& from) const;
@@ -88,6 +93,7 @@ private:
 
 	std::vector<capfrac::Disk> checkedGrains; ///< where the triangulation was last found regular
 	capfrac::Box               checkedBox;
+	capfrac::Accepted          accepted;
 
 public:
 	// clang-format off
@@ -121,7 +127,9 @@ or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressure
 		((std::vector<int>,savedOpen,,(Attr::hidden|Attr::readonly),"Flags of the edges, for saving."))
 		((std::vector<Real>,savedChecked,,(Attr::hidden|Attr::readonly),"Positions at the last check of the triangulation [m], for saving."))
 		((std::vector<Real>,savedPressures,,(Attr::hidden|Attr::readonly),"Fixed pressures of the cells [Pa], for saving."))
-		,,
+		,
+		guardAttributes();
+		,
 		.def("prepare",&PoreNetworkEngine::pyPrepare,"Build the network of the scene as it is, without a step; done by the first step otherwise. Every problem of the scene is reported here, and the scene is not changed. :raises RuntimeError: naming the body and what is wrong with it")
 		.def("cells",&PoreNetworkEngine::pyCells,"The cells as a dict of lists: ``vertices`` (body ids, three each), ``polygon`` (corners [m]), ``phase`` (0 water, 1 gas), ``pressure`` [Pa], ``void`` [m³], ``gas`` [m³], ``water`` [m³], ``domain`` [-], ``inlet`` (bool). The sum of the voids is exact; a single one may be negative where a grain of a torn sample reaches through its cell into the next.")
 		.def("throats",&PoreNetworkEngine::pyThroats,"The edges of the network as a dict of lists: ``ids`` (two bodies), ``gap`` [m], ``open`` (joins the cells on its sides), ``cells`` (left and right, -1 outside), ``entryPressure`` [Pa] (NaN where the engine has none).")

@@ -5,6 +5,8 @@
 #include <core/Omega.hpp>
 #include <pkg/common/NormShearPhys.hpp>
 
+#include <algorithm>
+
 namespace yade {
 
 YADE_PLUGIN((WallServoEngine));
@@ -18,17 +20,33 @@ void WallServoEngine::checkAttributes() const
 	if (!(gain > 0 && gain <= 1)) refuseAttribute("WallServoEngine.gain [-]", gain, "0 < gain <= 1");
 	requirePositive("WallServoEngine.maxVelocity [m/s]", maxVelocity);
 	requirePositive("WallServoEngine.thickness [m]", thickness);
+	requireFinite("WallServoEngine.driveVelocity [m/s]", driveVelocity);
+	if (!math::isnan(meanStress)) requirePositive("WallServoEngine.meanStress [Pa]", meanStress);
 	for (const auto& name : fixedWalls)
 		wallFromName("WallServoEngine.fixedWalls", name);
+	for (const auto& name : drivenWalls)
+		wallFromName("WallServoEngine.drivenWalls", name);
 }
 
-void WallServoEngine::postLoad(WallServoEngine&) { checkAttributes(); }
-
-bool WallServoEngine::isFixed(int wall) const
+void WallServoEngine::guardAttributes()
 {
-	for (const auto& name : fixedWalls)
-		if (wallFromName("WallServoEngine.fixedWalls", name) == wall) return true;
-	return false;
+	accepted.guard(
+	        std::tie(stressX, stressY, fixedWalls, drivenWalls, driveVelocity, meanStress, gain, maxVelocity, thickness), [this] { checkAttributes(); });
+}
+
+WallServoEngine::Task WallServoEngine::task(int wall) const
+{
+	auto holds = [&](const std::vector<std::string>& names) {
+		return std::any_of(names.begin(), names.end(), [&](const auto& name) { return wallFromName("WallServoEngine", name) == wall; });
+	};
+	return holds(drivenWalls) ? Task::driven : holds(fixedWalls) ? Task::fixed : Task::stress;
+}
+
+Real WallServoEngine::target(int wall) const
+{
+	if (math::isnan(meanStress)) return wall < 2 ? stressX : stressY;
+	const Real other = wall < 2 ? stress[2] + stress[3] : stress[0] + stress[1];
+	return math::max(Real(0), 2 * meanStress - other / 2);
 }
 
 void WallServoEngine::measure()
@@ -42,15 +60,16 @@ void WallServoEngine::measure()
 	}
 	scene->forces.sync();
 	const auto& box  = reader.box;
-	const Real  high = math::max(stressX, stressY);
+	const Real  high = math::isnan(meanStress) ? math::max(stressX, stressY) : meanStress;
 	error            = 0;
 	for (int w = 0; w < capfrac::nWalls; ++w) {
 		const auto     outward = capfrac::Box::outward(w);
 		const Vector3r force   = scene->forces.getForce(reader.wallIds[w]);
 		const Real     length  = w < 2 ? box.height() : box.width();
 		stress[w]              = (force[0] * outward.x + force[1] * outward.y) / (length * thickness);
-		if (!isFixed(w)) error = math::max(error, math::abs(stress[w] - target(w)) / (high > 0 ? high : 1));
 	}
+	for (int w = 0; w < capfrac::nWalls; ++w)
+		if (task(w) == Task::stress) error = math::max(error, math::abs(stress[w] - target(w)) / (high > 0 ? high : 1));
 }
 
 void WallServoEngine::action()
@@ -65,19 +84,20 @@ void WallServoEngine::action()
 			if (interaction->getId1() == reader.wallIds[w] || interaction->getId2() == reader.wallIds[w]) stiffness[w] += phys->kn;
 	}
 	for (int w = 0; w < capfrac::nWalls; ++w) {
-		auto& state = *(*scene->bodies)[reader.wallIds[w]]->state;
-		Real  speed = 0; // outwards
-		if (!isFixed(w)) {
-			const Real length = w < 2 ? reader.box.height() : reader.box.width();
-			const Real excess = (stress[w] - target(w)) * length * thickness;
-			if (stiffness[w] > 0) speed = gain * excess / (stiffness[w] * scene->dt);
-			else
-				speed = excess > 0 ? maxVelocity : excess < 0 ? -maxVelocity : 0;
-			speed = math::max(-maxVelocity, math::min(maxVelocity, speed));
-		}
+		auto&      state   = *(*scene->bodies)[reader.wallIds[w]]->state;
+		const Task todo    = task(w);
+		const Real speed   = todo == Task::stress ? followStress(w, stiffness[w]) : todo == Task::driven ? -driveVelocity : 0; // outwards
 		const auto outward = capfrac::Box::outward(w);
 		state.vel          = speed * Vector3r(outward.x, outward.y, 0);
 	}
+}
+
+Real WallServoEngine::followStress(int w, Real stiffness) const
+{
+	const Real length = w < 2 ? reader.box.height() : reader.box.width();
+	const Real excess = (stress[w] - target(w)) * length * thickness;
+	const Real speed  = stiffness > 0 ? gain * excess / (stiffness * scene->dt) : excess > 0 ? maxVelocity : excess < 0 ? -maxVelocity : 0;
+	return math::max(-maxVelocity, math::min(maxVelocity, speed));
 }
 
 void WallServoEngine::pyMeasure()

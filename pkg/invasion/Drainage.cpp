@@ -55,33 +55,46 @@ namespace {
 		return seed;
 	}
 
-	/// Invasion without regard to trapping.
-	std::vector<DrainageStep> invade(const DrainageNetwork& network, const Incidence& incidence, double capillaryPressure)
+	/// Invasion without regard to trapping. `absorb`: gas that is met joins in.
+	std::vector<DrainageStep> invade(const DrainageNetwork& network, const Incidence& incidence, double capillaryPressure, bool absorb, int maxSteps)
 	{
 		auto later = [&](int s, int t) {
 			const Throat &p = network.throats[s], &q = network.throats[t];
 			return std::tie(p.entryPressure, p.position.x, p.position.y) > std::tie(q.entryPressure, q.position.x, q.position.y);
 		};
 		std::priority_queue<int, std::vector<int>, decltype(later)> front(later);
-		std::vector<std::uint8_t>                                   full = network.gas;
+		std::vector<std::uint8_t>                                   full = network.gas, injected = network.injected;
 
-		auto expose = [&](int domain) {
-			for (int k = incidence.start[domain]; k < incidence.start[domain + 1]; ++k) {
-				const Throat& t = network.throats[incidence.throat[k]];
-				if (!full[otherSide(t, domain)] && t.entryPressure <= capillaryPressure) front.push(incidence.throat[k]);
+		// The throats of a domain that was entered; and, with it, of gas that it meets.
+		std::vector<int> stack;
+		auto             expose = [&](int entered) {
+			stack.push_back(entered);
+			while (!stack.empty()) {
+				const int domain = stack.back();
+				stack.pop_back();
+				for (int k = incidence.start[domain]; k < incidence.start[domain + 1]; ++k) {
+					const Throat& t     = network.throats[incidence.throat[k]];
+					const int     other = otherSide(t, domain);
+					if (!full[other]) {
+						if (t.entryPressure <= capillaryPressure) front.push(incidence.throat[k]);
+					} else if (absorb && !injected[other]) {
+						injected[other] = 1;
+						stack.push_back(other);
+					}
+				}
 			}
 		};
 		for (std::size_t d = 0; d < full.size(); ++d)
 			if (network.injected[d]) expose(static_cast<int>(d));
 
 		std::vector<DrainageStep> steps;
-		while (!front.empty()) {
+		while (!front.empty() && static_cast<int>(steps.size()) < maxSteps) {
 			const int     throat = front.top();
 			const Throat& t      = network.throats[throat];
 			front.pop();
 			if (full[t.left] && full[t.right]) continue;
 			const int entered = full[t.left] ? t.right : t.left;
-			full[entered]     = 1;
+			full[entered]     = injected[entered] = 1;
 			steps.push_back({ throat, entered });
 			expose(entered);
 		}
@@ -94,7 +107,7 @@ namespace {
 	/// water hangs together: a step was into trapped water when its domain, put back, has no outlet (the
 	/// two-step method of Masson 2016, doi:10.1016/j.cageo.2016.02.003). Leaving such a step out cannot
 	/// change a later one, because what lies behind it is trapped with it.
-	void keepTrapped(const DrainageNetwork& network, const Incidence& incidence, Drainage& drainage)
+	void keepTrapped(const DrainageNetwork& network, const Incidence& incidence, Drainage& drainage, int maxSteps)
 	{
 		const int                 nDomains = static_cast<int>(network.gas.size());
 		std::vector<std::uint8_t> water(nDomains);
@@ -116,15 +129,13 @@ namespace {
 			if (water[d]) putBack(d);
 
 		std::vector<DrainageStep> kept;
-		std::vector<std::uint8_t> stays = water;
 		for (auto step = drainage.steps.rbegin(); step != drainage.steps.rend(); ++step) {
 			water[step->domain] = 1;
 			putBack(step->domain);
 			if (clusters.find(step->domain) == clusters.find(outside)) kept.push_back(*step);
-			else
-				stays[step->domain] = 1;
 		}
 		std::reverse(kept.begin(), kept.end());
+		if (static_cast<int>(kept.size()) > maxSteps) kept.resize(maxSteps);
 		drainage.steps = std::move(kept);
 
 		// What is left of the water after the kept steps, and has no outlet, is trapped.
@@ -133,7 +144,7 @@ namespace {
 			after.gas[step.domain] = 1;
 		const auto drained = connectedWater(after);
 		for (int d = 0; d < nDomains; ++d)
-			if (stays[d] && !drained[d]) drainage.trapped.push_back(d);
+			if (!after.gas[d] && !drained[d]) drainage.trapped.push_back(d);
 	}
 
 } // namespace
@@ -148,12 +159,13 @@ std::vector<std::uint8_t> connectedWater(const DrainageNetwork& network)
 	return reach(network, network.outlet, [&](int d) { return network.gas[d] == 0; });
 }
 
-Drainage drain(const DrainageNetwork& network, double capillaryPressure, bool trapping)
+Drainage drain(const DrainageNetwork& network, double capillaryPressure, bool trapping, int maxSteps)
 {
 	const Incidence incidence(network);
 	Drainage        drainage;
-	drainage.steps = invade(network, incidence, capillaryPressure);
-	if (trapping) keepTrapped(network, incidence, drainage);
+	// What is trapped is known only when the whole avalanche is: its steps are counted afterwards.
+	drainage.steps = invade(network, incidence, capillaryPressure, !trapping, trapping ? std::numeric_limits<int>::max() : maxSteps);
+	if (trapping) keepTrapped(network, incidence, drainage, maxSteps);
 	return drainage;
 }
 

@@ -9,6 +9,8 @@
 
 #include "../network/Domains.hpp"
 
+#include <limits>
+
 namespace capfrac {
 
 /// A pair of domains and what gas needs to pass from one to the other.
@@ -45,9 +47,12 @@ std::vector<std::uint8_t> connectedGas(const DrainageNetwork& network, const std
 /// Domains of water from which an outlet can be reached through water (any throat conducts water).
 std::vector<std::uint8_t> connectedWater(const DrainageNetwork& network);
 
-/// The avalanche at `capillaryPressure` [Pa]. With `trapping`, water that is cut off from every outlet
-/// stays: neither the domains that were cut off before nor those cut off on the way are entered.
-Drainage drain(const DrainageNetwork& network, double capillaryPressure, bool trapping);
+/// The avalanche at `capillaryPressure` [Pa], or its first `maxSteps` steps (> 0).
+///
+/// Gas that did not hang on the inlet and is met on the way advances from then on. With `trapping` it waits
+/// for the next call, and water that is cut off from every outlet stays: neither the domains that were cut
+/// off before nor those cut off on the way are entered.
+Drainage drain(const DrainageNetwork& network, double capillaryPressure, bool trapping, int maxSteps = std::numeric_limits<int>::max());
 
 /// The lowest entry pressure that the injected gas meets [Pa]; infinity where it meets none.
 double nextEntryPressure(const DrainageNetwork& network);

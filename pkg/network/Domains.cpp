@@ -1,6 +1,8 @@
 #include "Domains.hpp"
 #include "UnionFind.hpp"
 
+#include <numeric>
+
 namespace capfrac {
 
 bool updateOpenEdges(std::vector<std::uint8_t>& open, const std::vector<double>& gap, double openGap, double closeGap)
@@ -34,6 +36,14 @@ Domains findDomains(const Triangulation& mesh, const std::vector<std::uint8_t>& 
 		} else
 			domains.ofCell[c] = domains.ofCell[root];
 	}
+	domains.begin.assign(domains.count + 1, 0);
+	for (int d : domains.ofCell)
+		++domains.begin[d + 1];
+	std::partial_sum(domains.begin.begin(), domains.begin.end(), domains.begin.begin());
+	auto next = domains.begin;
+	domains.cells.resize(nCells);
+	for (int c = 0; c < nCells; ++c)
+		domains.cells[next[domains.ofCell[c]]++] = c;
 	return domains;
 }
 

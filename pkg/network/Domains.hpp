@@ -14,6 +14,16 @@ struct Domains {
 	int              count = 0;
 	std::vector<int> ofCell; ///< cell -> domain, 0 … count-1, numbered by the first cell of each
 	std::vector<int> first;  ///< domain -> its first cell
+	std::vector<int> begin;  ///< domain -> where its cells begin in `cells`; count+1 entries
+	std::vector<int> cells;  ///< cells sorted by domain
+
+	/// The cells of one domain, in ascending order.
+	struct Range {
+		const int *from, *to;
+		const int* begin() const { return from; }
+		const int* end() const { return to; }
+	};
+	Range cellsOf(int domain) const { return { cells.data() + begin[domain], cells.data() + begin[domain + 1] }; }
 };
 
 /// Marks the edges that join cells. An edge opens when its gap [m] exceeds `openGap` and closes again

@@ -46,7 +46,7 @@ namespace {
 		return -1;
 	}
 
-	Drainage drainByRescanning(DrainageNetwork network, double capillaryPressure, bool trapping)
+	Drainage drainByRescanning(DrainageNetwork network, double capillaryPressure, bool trapping, std::size_t maxSteps = SIZE_MAX)
 	{
 		Drainage drainage;
 		for (;;) {
@@ -58,7 +58,7 @@ namespace {
 				if (domain < 0 || throat.entryPressure > capillaryPressure || (trapping && !free[domain])) continue;
 				if (next < 0 || operatesBefore(throat, network.throats[next])) next = t;
 			}
-			if (next < 0) {
+			if (next < 0 || drainage.steps.size() == maxSteps) {
 				for (std::size_t d = 0; trapping && d < free.size(); ++d)
 					if (!network.gas[d] && !free[d]) drainage.trapped.push_back(static_cast<int>(d));
 				return drainage;
@@ -66,6 +66,7 @@ namespace {
 			const int domain = entered(network, network.throats[next]);
 			drainage.steps.push_back({ next, domain });
 			network.gas[domain] = network.injected[domain] = 1;
+			if (!trapping) network.injected = connectedGas(network, network.injected); // gas that was met joins in
 		}
 	}
 
@@ -106,8 +107,11 @@ namespace {
 		for (double pressure : levels(network, stride))
 			for (bool trapping : { false, true }) {
 				const auto found = drain(network, pressure, trapping), expected = drainByRescanning(network, pressure, trapping);
+				const auto few = drain(network, pressure, trapping, 3), fewExpected = drainByRescanning(network, pressure, trapping, 3);
 				EXPECT_EQ(pairs(found.steps), pairs(expected.steps)) << "at " << pressure << " Pa, trapping " << trapping;
 				EXPECT_EQ(found.trapped, expected.trapped) << "at " << pressure << " Pa, trapping " << trapping;
+				EXPECT_EQ(pairs(few.steps), pairs(fewExpected.steps)) << "three steps at " << pressure << " Pa, trapping " << trapping;
+				EXPECT_EQ(few.trapped, fewExpected.trapped) << "three steps at " << pressure << " Pa, trapping " << trapping;
 				expectNoStepTooEarly(network, found, pressure);
 				nTrapped += static_cast<int>(found.trapped.size());
 			}
@@ -212,6 +216,7 @@ TEST(Drainage, NextEntryPressureIsWhereTheNextStepComes)
 		Random random(seed);
 		auto   network = randomNetwork(random);
 		fill(network, drain(network, random.uniform(0, 200), false));
+		network.injected = connectedGas(network, network.injected); // gas that was met hangs on the inlet, too
 		double lowest = std::numeric_limits<double>::infinity();
 		for (const Throat& t : network.throats)
 			if (entered(network, t) >= 0) lowest = std::min(lowest, t.entryPressure);
