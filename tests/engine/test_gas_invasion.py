@@ -156,3 +156,37 @@ def test_cellPressuresAreNotToBeSet(rigid):
     gas = rigid("settled")
     with pytest.raises(ValueError, match="use a PoreNetworkEngine"):
         gas.setCellPressures([5.0] * len(gas.cells()["void"]))
+
+
+def test_onePoreAtATimeEndsWhereTheAvalancheEnds(rigid):
+    """In grains that stand still the pace of the gas changes when a pore is entered, not which and through what."""
+
+    def run(interval):
+        gas = rigid("settled", gasPressure=100, pressureIncrement=20, maxPressure=220, invasionInterval=interval)
+        O.run(4000, True)
+        assert gas.rampDone
+        return gas.events()
+
+    avalanche, paced = run(0), run(7)
+    for column in ("throat", "pore", "entryPressure", "level", "gasPressure", "volume"):
+        assert avalanche[column] == paced[column]
+    assert len(set(avalanche["iteration"])) < len(avalanche["iteration"])  # several pores in one step
+    assert min(np.diff(paced["iteration"])) >= 7
+
+
+@pytest.mark.parametrize("name, good, bad", [
+    ("interfacialTension", 0.072, -1.0), ("contactAngle", 0.5, 2.0), ("gasPressure", 10.0, float("nan")), ("entryLaw", "mayerStowePrincen", "young"),
+    ("inletWall", "left", "floor"), ("invasionInterval", 3, -1), ("minLevelSteps", 5, 0), ("thickness", 2.0, 0.0), ("poreMode", "triangle", "hexagon")])
+def test_refusedAssignmentsChangeNothing(name, good, bad):
+    from yade.wrapper import GasInvasionEngine
+
+    gas = GasInvasionEngine()
+    first = getattr(gas, name)
+    with pytest.raises(ValueError, match="allowed:"):
+        setattr(gas, name, bad)
+    assert getattr(gas, name) == first
+    setattr(gas, name, good)
+    with pytest.raises(ValueError, match="allowed:"):
+        setattr(gas, name, bad)
+    assert getattr(gas, name) == good
+    gas.thickness = 3.0  # nothing is left of the refused value

@@ -28,7 +28,7 @@ def stressFromContacts():
 
 def sample():
     """Sediment as the loaded one was made from."""
-    return sediment.Sediment(grainCount=60, rMin=1e-3, seed=1)
+    return sediment.Sediment(grainCount=60, rMin=1e-3, rMax=2e-3, seed=1)
 
 
 @pytest.mark.parametrize("stressV, stressH", [(20e3, 8e3), (5e3, 15e3)])
@@ -110,3 +110,27 @@ def test_impossibleValuesAreRefusedByName(name, bad, message):
         WallServoEngine(**{name: bad})
     with pytest.raises(ValueError, match=message):
         setattr(WallServoEngine(), name, bad)
+
+
+def test_drivenWallsMoveAtTheirVelocity(loadSample):
+    loadSample()
+    servo = sediment.engine("servo")
+    servo.dead, servo.drivenWalls, servo.driveVelocity = False, ["top", "left"], 1e-3
+    before = [O.bodies[w].state.pos[O.bodies[w].shape.axis] for w in range(4)]
+    O.run(200, True)
+    moved = [O.bodies[w].state.pos[O.bodies[w].shape.axis] - before[w] for w in range(4)]
+    # Inwards: the left wall to the right, the top one down; a sum of 200 equal steps. The first step's velocity is set before
+    # the integrator moves the wall, so all 200 count.
+    assert moved[0] == pytest.approx(200 * O.dt * 1e-3, rel=1e-9)
+    assert moved[3] == pytest.approx(-200 * O.dt * 1e-3, rel=1e-9)
+    assert moved[2] == 0 and moved[1] != 0  # fixed; still under its stress
+
+
+@pytest.mark.parametrize("name, good, bad", [("stressX", 1e3, -1.0), ("gain", 0.5, 2.0), ("meanStress", 1e3, -5.0), ("driveVelocity", -2.0, float("inf")),
+                                             ("drivenWalls", ["top"], ["ceiling"])])
+def test_refusedAssignmentsChangeNothing(name, good, bad):
+    servo = WallServoEngine()
+    setattr(servo, name, good)
+    with pytest.raises(ValueError, match="allowed:"):
+        setattr(servo, name, bad)
+    assert getattr(servo, name) == good
