@@ -20,7 +20,7 @@ from capfrac import injection, mode, sediment
 
 def main(grainCount=300, seed=1):
     tension = 0.05  # N/m
-    sample = sediment.Sediment(grainCount=grainCount, rMin=1e-3, seed=seed)
+    sample = sediment.Sediment(grainCount=grainCount, rMin=1e-3, rMax=2e-3, seed=seed)
     sediment.makeSample(sample, stressV=10e3, stressH=8e3)
     sediment.bond(capillaryStrength=10 * tension)  # sigma_c = 10 gamma/r
     sediment.relax()

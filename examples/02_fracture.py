@@ -22,7 +22,7 @@ from capfrac import injection, mode, sediment
 
 def main(grainCount=300, seed=1, inlets=(1, 3, 5)):
     tension = 0.05  # N/m
-    sediment.makeSample(sediment.Sediment(grainCount=grainCount, rMin=1e-6, seed=seed), stressV=10e3, stressH=8e3)
+    sediment.makeSample(sediment.Sediment(grainCount=grainCount, rMin=1e-6, rMax=2e-6, seed=seed), stressV=10e3, stressH=8e3)
     sediment.bond(capillaryStrength=10 * tension)
     sediment.relax()
     results = {}

@@ -62,7 +62,7 @@ def settledSamples(tmp_path_factory):
     def path(rMin, count):
         if (rMin, count) not in paths:
             O.reset()
-            sediment.makeSample(sediment.Sediment(grainCount=count, rMin=rMin, seed=1), stressV=10e3, stressH=8e3)
+            sediment.makeSample(sediment.Sediment(grainCount=count, rMin=rMin, rMax=2 * rMin, seed=1), stressV=10e3, stressH=8e3)
             sediment.bond(CAPILLARY_STRENGTH)
             sediment.relax()
             paths[rMin, count] = folder / f"{rMin:g}-{count}.yade.gz"

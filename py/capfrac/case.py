@@ -4,79 +4,36 @@
 An unknown key, a value of the wrong kind or out of range is refused by name, with what is allowed.
 """
 
-import difflib
-import math
-import tomllib
-from dataclasses import dataclass
 from pathlib import Path
 
+from capfrac import keys
 from capfrac.errors import CaseError
+from capfrac.keys import REQUIRED, Key, notNegative, positive
 
-REQUIRED = object()
 #: Largest ratio of grain radii that a case may have [-]: entry pressures and domains are meant for narrow distributions.
 MAX_SIZE_RATIO = 10
-
-
-@dataclass(frozen=True)
-class Key:
-    """One key of a case file: section and name, kind, unit, default and what it means."""
-
-    section: str
-    name: str
-    kind: type
-    unit: str
-    default: object
-    meaning: str
-    low: float | None = None  #: lowest value
-    openLow: bool = False  #: whether the lowest value itself is excluded
-    high: float | None = None  #: highest value
-    choices: tuple = ()
-
-    @property
-    def path(self):
-        return f"{self.section}.{self.name}"
-
-    def allowed(self):
-        """What the key allows, in words."""
-        if self.choices:
-            return ", ".join(f"'{choice}'" for choice in self.choices)
-        words = {int: "a whole number", float: "a number", str: "a text", bool: "true or false", list: "a list"}[self.kind]
-        if self.low is not None:
-            words += f" {'>' if self.openLow else '>='} {self.low:g}"
-        if self.high is not None:
-            words += f"{' and' if self.low is not None else ''} <= {self.high:g}"
-        return words + (f" [{self.unit}]" if self.unit != "-" else "")
-
-
-def _positive(section, name, unit, default, meaning):
-    return Key(section, name, float, unit, default, meaning, low=0, openLow=True)
-
-
-def _notNegative(section, name, unit, default, meaning):
-    return Key(section, name, float, unit, default, meaning, low=0)
-
 
 KEYS = (
     Key("case", "title", str, "-", "", "Title of pictures and reports."),
     Key("case", "description", str, "-", "", "What the case is, where it comes from."),
     Key("case", "assumptions", list, "-", (), "Texts: each assumption that is not read from data, one a line; kept in the summary."),
     Key("grains", "count", int, "-", 300, "Number of grains to generate.", low=1),
-    _positive("grains", "rMin", "m", REQUIRED, "Smallest grain radius."),
+    positive("grains", "rMin", "m", REQUIRED, "Smallest grain radius."),
     Key("grains", "rMax", float, "m", None, "Largest grain radius, radii are uniform in between; default 2 rMin.", low=0, openLow=True),
     Key("grains", "seed", int, "-", 1, "Seed of all random numbers; the same seed gives the same run.", low=0),
     Key("grains", "packing", str, "-", "", "Instead of generated grains: a CSV file with columns x, y, r [m], beside the case file."),
-    _positive("grains", "density", "kg/m^3", 2650.0, "Density of the grains."),
-    _positive("grains", "normalStiffness", "N/m", 1e7, "Normal stiffness k_n of a contact."),
+    positive("grains", "density", "kg/m^3", 2650.0, "Density of the grains."),
+    positive("grains", "normalStiffness", "N/m", 1e7, "Normal stiffness k_n of a contact."),
     Key("grains", "shearStiffness", float, "N/m", None, "Shear stiffness k_s of a contact; default k_n.", low=0),
-    _notNegative("grains", "friction", "-", 0.5, "Coefficient of friction between grains."),
-    _notNegative("grains", "wallFriction", "-", 0.0, "Coefficient of friction between grains and walls."),
-    _positive("grains", "aspect", "-", 1.0, "Height over width of the settled sample, about."),
-    _positive("stress", "vertical", "Pa", REQUIRED, "Vertical effective stress sigma'_V."),
-    _positive("stress", "horizontal", "Pa", REQUIRED, "Horizontal effective stress sigma'_H."),
-    _notNegative("cohesion", "chi", "-", 0.0, "Bond strength that follows the grain size: sigma_c = tau_c = chi gamma / r."),
-    _notNegative("cohesion", "tensileStrength", "Pa", 0.0, "Part of the tensile strength sigma_c that does not depend on grain size."),
-    _notNegative("cohesion", "shearStrength", "Pa", 0.0, "Part of the shear strength tau_c that does not depend on grain size."),
-    _positive("gas", "interfacialTension", "N/m", 0.05, "Interfacial tension gamma of gas and water."),
+    notNegative("grains", "friction", "-", 0.5, "Coefficient of friction between grains."),
+    notNegative("grains", "wallFriction", "-", 0.0, "Coefficient of friction between grains and walls."),
+    positive("grains", "aspect", "-", 1.0, "Height over width of the settled sample, about."),
+    positive("stress", "vertical", "Pa", REQUIRED, "Vertical effective stress sigma'_V."),
+    positive("stress", "horizontal", "Pa", REQUIRED, "Horizontal effective stress sigma'_H."),
+    notNegative("cohesion", "chi", "-", 0.0, "Bond strength that follows the grain size: sigma_c = tau_c = chi gamma / r."),
+    notNegative("cohesion", "tensileStrength", "Pa", 0.0, "Part of the tensile strength sigma_c that does not depend on grain size."),
+    notNegative("cohesion", "shearStrength", "Pa", 0.0, "Part of the shear strength tau_c that does not depend on grain size."),
+    positive("gas", "interfacialTension", "N/m", 0.05, "Interfacial tension gamma of gas and water."),
     Key("gas", "contactAngle", float, "degrees", 0.0, "Contact angle through the water, below 90.", low=0, high=89.9),
     Key("gas", "entryLaw", str, "-", "inscribedSphere", "Law of the entry pressure.", choices=("inscribedSphere", "mayerStowePrincen")),
     Key("gas", "trapping", bool, "-", False, "Whether water that is cut off from the outlet stays (true) or drains by films (false)."),
@@ -86,22 +43,22 @@ KEYS = (
     Key("inlet", "from", float, "m", None, "Instead of pores: begin of the inlet, from the left (lower) end of its wall.", low=0),
     Key("inlet", "to", float, "m", None, "Instead of pores: end of the inlet, from the left (lower) end of its wall.", low=0),
     Key("inlet", "points", list, "m", (), "Instead of a stretch of wall: points [x, y] from the lower left corner of the box; the pores that hold them."),
-    _notNegative("ramp", "start", "Pa", REQUIRED, "Capillary pressure p_g - p_w at which the ramp begins."),
-    _positive("ramp", "increment", "Pa", REQUIRED, "Step of the ramp; taken whenever the grains are at rest."),
-    _positive("ramp", "max", "Pa", REQUIRED, "Capillary pressure at which the ramp ends."),
+    notNegative("ramp", "start", "Pa", REQUIRED, "Capillary pressure p_g - p_w at which the ramp begins."),
+    positive("ramp", "increment", "Pa", REQUIRED, "Step of the ramp; taken whenever the grains are at rest."),
+    positive("ramp", "max", "Pa", REQUIRED, "Capillary pressure at which the ramp ends."),
     Key("ramp", "endAt", str, "-", "max", "What ends the run: the ramp's end, or the gas at the outlet.", choices=("max", "breakthrough")),
-    _positive("ramp", "maxExtension", "-", 0.3, "Growth of the box, relative to its width and height, at which the sample counts as come apart and the run ends."),
-    _positive("ramp", "unbalanced", "-", 1e-3, "Mean resultant force on the grains over the mean contact force, below which they are at rest."),
+    positive("ramp", "maxExtension", "-", 0.3, "Growth of the box, relative to its width and height, at which the sample counts as come apart and the run ends."),
+    positive("ramp", "unbalanced", "-", 1e-3, "Mean resultant force on the grains over the mean contact force, below which they are at rest."),
     Key("ramp", "minLevelSteps", int, "-", 100, "Time steps that a pressure level lasts at least.", low=1),
     Key("ramp", "maxLevelSteps", int, "-", 20000, "Time steps after which the pressure rises though the grains still move.", low=1),
+    Key("ramp", "invasionInterval", int, "-", 0, "Time steps between one invaded pore and the next; 0: whole avalanches while the grains stand still.", low=0),
     Key("network", "poreMode", str, "-", "domain", "What a pore is.", choices=("domain", "triangle")),
-    _notNegative("network", "mergeTolerance", "-", 1e-3, "Gap beyond which grains do not touch, in smallest radii."),
-    _positive("network", "openingThreshold", "-", 0.01, "Growth of a gap, in mean radii, beyond which its throat counts as opened."),
+    notNegative("network", "mergeTolerance", "-", 1e-3, "Gap beyond which grains do not touch, in smallest radii."),
+    positive("network", "openingThreshold", "-", 0.01, "Growth of a gap, in mean radii, beyond which its throat counts as opened."),
     Key("network", "checkInvariants", bool, "-", True, "Check the bookkeeping of gas and water after each avalanche."),
     Key("output", "pressures", list, "Pa", (), "Capillary pressures at which snapshots are taken, besides start, first opened throat (initiation), breakthrough and end."),
     Key("output", "fields", bool, "-", True, "Whether to write fields for ParaView with each snapshot."),
 )
-_BY_SECTION = {section: {key.name: key for key in KEYS if key.section == section} for section in dict.fromkeys(key.section for key in KEYS)}
 
 
 def shippedCases():
@@ -119,75 +76,23 @@ def readCase(nameOrPath, overrides=()):
     """
     path = shippedCases().get(str(nameOrPath), Path(nameOrPath))
     try:
-        text = path.read_text(encoding="utf-8")
+        raw = keys.readToml(path)
     except OSError as problem:
         shipped = ", ".join(shippedCases())
         raise CaseError(f"the case '{nameOrPath}' cannot be read ({problem.strerror}); shipped cases: {shipped}") from None
-    except UnicodeDecodeError:
-        raise CaseError(f"{path} is not a text in UTF-8") from None
-    try:
-        raw = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
-        raise CaseError(f"{path} is not valid TOML: {problem}") from None
     for override in overrides:
-        _override(raw, override)
+        keys.override(raw, override)
     case = resolveCase(raw, source=str(path))
     case["case"]["name"] = path.stem
     case["case"]["folder"] = str(path.resolve().parent)
     return case
 
 
-def _override(raw, text):
-    name, equals, value = text.partition("=")
-    section, dot, key = name.strip().partition(".")
-    if not (equals and dot):
-        raise CaseError(f"'{text}' is not of the form section.key=value, for example grains.seed=7")
-    try:
-        entries = raw.setdefault(section, {})
-        if isinstance(entries, dict):  # else resolveCase will say what is wrong with it
-            entries[key] = tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
-        raise CaseError(f"{name.strip()} = {value}: not a TOML value (texts need quotes)") from None
-
-
 def resolveCase(raw, source="case"):
     """Check a case given as a dict of sections and fill in the defaults; see :func:`readCase`."""
-    for section, entries in raw.items():
-        if section not in _BY_SECTION:
-            raise CaseError(f"{source}: unknown section [{section}]{_didYouMean(section, _BY_SECTION)}")
-        if not isinstance(entries, dict):
-            raise CaseError(f"{source}: '{section}' stands outside of a section; allowed sections: {', '.join(_BY_SECTION)}")
-        for name in entries:
-            if name not in _BY_SECTION[section]:
-                raise CaseError(f"{source}: unknown key {section}.{name}{_didYouMean(name, _BY_SECTION[section])}")
-    case = {}
-    for section, keys in _BY_SECTION.items():
-        case[section] = {name: _value(key, raw.get(section, {}).get(name, key.default), source) for name, key in keys.items()}
+    case = keys.resolve(raw, KEYS, source)
     _checkTogether(case, source)
     return case
-
-
-def _didYouMean(name, known):
-    close = difflib.get_close_matches(name, known, n=1)
-    return f"; did you mean '{close[0]}'?" if close else f"; known: {', '.join(known)}"
-
-
-def _value(key, value, source):
-    if value is REQUIRED:
-        raise CaseError(f"{source}: {key.path} is missing; needed: {key.allowed()}")
-    if value is None:
-        return None
-    good = isinstance(value, (int, float) if key.kind is float else (list, tuple) if key.kind is list else key.kind)
-    good &= not (isinstance(value, bool) and key.kind is not bool)
-    if good and key.kind in (int, float):
-        good &= math.isfinite(value)
-        good &= key.low is None or value > key.low or (value == key.low and not key.openLow)
-        good &= key.high is None or value <= key.high
-    if good and key.choices:
-        good &= value in key.choices
-    if not good:
-        raise CaseError(f"{source}: {key.path} = {value!r}, allowed: {key.allowed()}")
-    return float(value) if key.kind is float else list(value) if key.kind is list else value
 
 
 def _checkTogether(case, source):
@@ -224,11 +129,4 @@ def _checkTogether(case, source):
 
 def describeKeys():
     """All keys with unit, default and meaning, as text for people."""
-    lines = []
-    for section, keys in _BY_SECTION.items():
-        lines.append(f"[{section}]")
-        for key in keys.values():
-            default = "needed" if key.default is REQUIRED else "optional" if key.default is None else f"default {key.default!r}"
-            lines.append(f"  {key.name} [{key.unit}]: {key.meaning} ({default}; {key.allowed()})")
-        lines.append("")
-    return "\n".join(lines)
+    return keys.describe(KEYS)

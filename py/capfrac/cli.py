@@ -19,6 +19,9 @@ def _parser():
     inject.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a value of the case, e.g. -s grains.seed=7")
     inject.add_argument("--restart", action="store_true", help="discard an earlier run in the folder")
     inject.add_argument("-q", "--quiet", action="store_true", help="no progress, only the result")
+    from capfrac.lab import command as lab
+
+    lab.addParser(commands)
     commands.add_parser("cases", help="list the shipped cases")
     commands.add_parser("describe", help="list every key of a case file with its unit, default and meaning")
     commands.add_parser("python", help="Python with YADE and capfrac at hand; takes Python's arguments", add_help=False)
@@ -115,6 +118,10 @@ def main(argv=None):
             return passed(argv[1:])
         if arguments.command == "inject":
             return _inject(arguments)
+        if arguments.command == "lab":
+            from capfrac.lab import command as lab
+
+            return lab.main(arguments)
         if arguments.command == "cases":
             return _cases()
         if arguments.command == "describe":

@@ -67,7 +67,7 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
     breakthrough = (breakthroughPressure - waterPressure) / 10.0**power
     fill = [COLOURS["dot"] if rest else "white" for rest in levels["atRest"]]
 
-    with _figure((9.6, 3.1)) as figure:
+    with newFigure((9.6, 3.1)) as figure:
         grid = {"left": 0.065, "right": 0.985, "bottom": 0.165, "top": 0.89 if title else 0.95, "wspace": 0.33}
         curve, opening, moving = figure.subplots(1, 3, gridspec_kw=grid)
         curve.plot(levels["gasSaturation"], pressure, color=COLOURS["gas"], linewidth=1.2, zorder=2)
@@ -118,7 +118,7 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
             axes.spines["right"].set_visible(False)
         if title:
             figure.suptitle(title, fontsize=10, y=0.985)
-        _save(figure, path)
+        saveFigure(figure, path)
 
 
 def _rangeOf(values):
@@ -161,7 +161,7 @@ def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
     columns = _legendColumns(handles, room)
     foot = 0.42 + 0.135 * math.ceil(len(handles) / columns)
     total = np.array([room + 2 * rim, head + height + foot])
-    with _figure(total) as figure:
+    with newFigure(total) as figure:
         for k, (snapshot, (across, up), title) in enumerate(zip(snapshots, inches[:, None] * sides, titles)):
             x = rim + k * (width + gap)
             axes = figure.add_axes([x / total[0], foot / total[1], across / total[0], up / total[1]])
@@ -171,7 +171,7 @@ def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
                         ha="center", va="center", fontsize=10)
         figure.legend(handles=handles, ncol=columns, loc="lower left", bbox_to_anchor=(rim / total[0], 0.05 / total[1]), fontsize=7, frameon=False,
                       borderaxespad=0, borderpad=0, handlelength=1.5, columnspacing=1.3, handletextpad=0.5, labelspacing=0.35)
-        _save(figure, path)
+        saveFigure(figure, path)
 
 
 def _stateOf(snapshot):
@@ -308,7 +308,7 @@ def _legendColumns(handles, room):
 
 
 @contextmanager
-def _figure(size):
+def newFigure(size):
     """An empty figure in matplotlib's own style: the user's matplotlibrc must not change the pictures."""
     with style.context("default"), matplotlib.rc_context({"svg.hashsalt": "capfrac", "font.size": 9, "pdf.fonttype": 42}):
         figure = Figure(figsize=size, dpi=_RESOLUTION)
@@ -316,7 +316,7 @@ def _figure(size):
         yield figure
 
 
-def _save(figure, path):
+def saveFigure(figure, path):
     """Without the date and the versions that matplotlib would put into the file."""
     kind = os.path.splitext(str(path))[1].lower()
     metadata = {".png": {"Software": None}, ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},

@@ -100,7 +100,7 @@ def _startGas(case):
         interfacialTension=gas["interfacialTension"], contactAngle=math.radians(gas["contactAngle"]), entryLaw=gas["entryLaw"],
         trapping=gas["trapping"], poreMode=network["poreMode"], mergeTolerance=network["mergeTolerance"],
         openingThreshold=network["openingThreshold"], checkInvariants=network["checkInvariants"],
-        unbalancedTolerance=ramp["unbalanced"], minLevelSteps=ramp["minLevelSteps"], maxLevelSteps=ramp["maxLevelSteps"])
+        unbalancedTolerance=ramp["unbalanced"], minLevelSteps=ramp["minLevelSteps"], invasionInterval=ramp["invasionInterval"], maxLevelSteps=ramp["maxLevelSteps"])
 
 
 def _boxSize():

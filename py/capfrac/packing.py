@@ -9,7 +9,9 @@ from capfrac.errors import CaseError
 
 
 def drawRadii(sample):
-    """Radii [m], uniform in [rMin, rMax], from the sample's seed."""
+    """Radii [m] from the sample's grading and seed; uniform in [rMin, rMax] without a grading."""
+    if sample.grading is not None:
+        return sample.grading.draw(sample.grainCount, np.random.default_rng(sample.seed))
     return np.random.default_rng(sample.seed).uniform(sample.rMin, sample.rMax, sample.grainCount)
 
 

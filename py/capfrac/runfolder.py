@@ -45,6 +45,11 @@ def caseKey(case):
 class RunFolder:
     """A run folder, opened for a case. Raises :class:`RunFolderError` when it cannot be used for it."""
 
+    #: What a run writes: files, folders, and endings of the files in those folders.
+    FILES = ("events.csv", "pc_saturation.csv", "curve.png", "checkpoint.yade.gz")
+    FOLDERS = ("snapshots", "fields")
+    SUFFIXES = (".npz", ".png", ".vtu", ".pvd")
+
     def __init__(self, path, case, restart=False):
         self.path = Path(path)
         self.key = caseKey(case)
@@ -95,11 +100,10 @@ class RunFolder:
 
     def clear(self):
         """Remove what a run writes, and nothing else."""
-        written = [self.path / name for name in ("events.csv", "pc_saturation.csv", "curve.png", "checkpoint.yade.gz")]
-        written += [entry for entry in self.path.iterdir() if _ASIDE.fullmatch(entry.name)]
-        folders = [folder for folder in (self.path / "snapshots", self.path / "fields") if folder.is_dir()]
+        written = [entry for entry in self.path.iterdir() if entry.name in self.FILES or _ASIDE.fullmatch(entry.name)]
+        folders = [folder for folder in (self.path / name for name in self.FOLDERS) if folder.is_dir()]
         for folder in folders:
-            written += [entry for entry in folder.iterdir() if entry.suffix in (".npz", ".png", ".vtu", ".pvd")]
+            written += [entry for entry in folder.iterdir() if entry.suffix in self.SUFFIXES]
         try:
             for entry in written + [self.path / "summary.json"]:  # the summary last: without it the rest would be foreign
                 entry.unlink(missing_ok=True)

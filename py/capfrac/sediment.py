@@ -12,7 +12,7 @@ Eqs. 1-4). The walls are smooth unless told otherwise, so that the stresses in t
 """
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -34,7 +34,8 @@ class Sediment:
 
     grainCount: int = 300  #: number of grains [-], >= 1
     rMin: float = 1e-3  #: smallest radius [m], > 0
-    rMax: float | None = None  #: largest radius [m], >= rMin; default 2 rMin, as in the paper's invasion tests
+    rMax: float | None = None  #: largest radius [m], >= rMin; default 5/3 rMin, as in most of the paper (its invasion tests take 2 rMin)
+    grading: object = None  #: size distribution of :mod:`capfrac.grading`; gives rMin and rMax. Default: uniform in [rMin, rMax]
     seed: int = 1  #: of all random numbers [-], >= 0
     density: float = 2650.0  #: of the grains [kg/m^3], > 0
     normalStiffness: float = 1e7  #: k_n [N/m], > 0
@@ -44,12 +45,16 @@ class Sediment:
     aspect: float = 1.0  #: height over width of the settled sample, about [-], > 0
 
     def __post_init__(self):
-        if self.rMax is None:
-            self.rMax = 2 * self.rMin
+        if self.grading is not None:
+            self.rMin, self.rMax = self.grading.rMin, self.grading.rMax
+        if self.rMax is None and isinstance(self.rMin, (int, float)):
+            self.rMax = 5 / 3 * self.rMin
         if self.shearStiffness is None:
             self.shearStiffness = self.normalStiffness
         positive = ["grainCount", "rMin", "rMax", "density", "normalStiffness", "aspect"]
         for field in fields(self):
+            if field.name == "grading":
+                continue
             value = getattr(self, field.name)
             good = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
             if not good or value < 0 or (field.name in positive and value == 0):
@@ -61,6 +66,13 @@ class Sediment:
             if int(getattr(self, name)) != getattr(self, name):
                 raise CaseError(f"{name} = {getattr(self, name)}, allowed: whole numbers")
             setattr(self, name, int(getattr(self, name)))
+
+
+def changed(sample, **values):
+    """The same sediment with other values; a grading goes when ``rMin`` is given."""
+    if "rMin" in values:
+        values = {"grading": None, **values}
+    return replace(sample, **values)
 
 
 def buildScene(sample, x, y, radii, box):
@@ -124,10 +136,23 @@ def engine(label):
     raise SceneError(f"the scene has no engine with the label '{label}'; make the sample with capfrac.sediment.buildScene")
 
 
-def _grains():
+def grainBodies():
+    """The grains of the current scene."""
     from yade import O, Sphere
 
     return [body for body in O.bodies if isinstance(body.shape, Sphere)]
+
+
+def startSettling(sample, gravity=None):
+    """Switch gravity on, by default as weak as :func:`settle` says; ``gravity`` in m/s^2, downwards."""
+    newton = engine("newton")
+    newton.damping = SETTLING_DAMPING
+    if gravity is None:
+        walls = wallBodies()
+        width = walls["right"].state.pos[0] - walls["left"].state.pos[0]
+        column = math.pi * sum(body.shape.radius**2 for body in grainBodies()) / 0.84 / width
+        gravity = SETTLING_OVERLAP * sample.normalStiffness / (2 * sample.density * column)
+    newton.gravity = (0, -gravity, 0)
 
 
 def settle(sample, unbalanced=0.01, maxSteps=400_000, progress=None):
@@ -141,15 +166,9 @@ def settle(sample, unbalanced=0.01, maxSteps=400_000, progress=None):
     """
     from yade import O, utils
 
-    newton = engine("newton")
-    newton.damping = SETTLING_DAMPING
-    grains = _grains()
-    solid = math.pi * sum(body.shape.radius**2 for body in grains)
-    walls = wallBodies()
-    width = walls["right"].state.pos[0] - walls["left"].state.pos[0]
-    column = solid / 0.84 / width
-    newton.gravity = (0, -SETTLING_OVERLAP * sample.normalStiffness / (2 * sample.density * column), 0)
-    _runUntil(lambda: O.iter > 2000 and utils.unbalancedForce() < unbalanced and _touching(len(grains)), maxSteps, 1000,
+    startSettling(sample)
+    newton, grains, walls = engine("newton"), grainBodies(), wallBodies()
+    runUntil(lambda: O.iter > 2000 and utils.unbalancedForce() < unbalanced and _touching(len(grains)), maxSteps, 1000,
               f"the grains did not come to rest: unbalanced force {{unbalanced}} after {maxSteps} steps, wanted {unbalanced}",
               progress, "settling")
     newton.gravity = (0, 0, 0)
@@ -164,7 +183,11 @@ def _touching(nGrains):
     return O.interactions.countReal() > nGrains
 
 
-def _runUntil(done, maxSteps, chunk, complaint, progress, label):
+def runUntil(done, maxSteps, chunk, complaint, progress, label):
+    """Run in chunks of steps until ``done()``; :class:`SampleError` with ``complaint`` after ``maxSteps``, or when a grain flies off.
+
+    ``{unbalanced}`` in the complaint is filled in. ``progress(label, unbalanced force)`` is called after each chunk.
+    """
     from yade import O, utils
 
     for step in range(0, maxSteps, chunk):
@@ -173,7 +196,7 @@ def _runUntil(done, maxSteps, chunk, complaint, progress, label):
             progress(label, utils.unbalancedForce())
         if done():
             return
-        lost = next((body for body in _grains() if not math.isfinite(body.state.pos.norm())), None)
+        lost = next((body for body in grainBodies() if not math.isfinite(body.state.pos.norm())), None)
         if lost is not None:
             raise SampleError(f"body #{lost.id} flew off while {label} (its place is {tuple(lost.state.pos)}): the time step O.dt = {O.dt:g} s is too large, "
                               "or grains lay in each other")
@@ -220,7 +243,7 @@ def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxStep
     servo.gain = 0.3
     servo.dead = False
     try:
-        _runUntil(lambda: servo.error < tolerance and utils.unbalancedForce() < unbalanced, maxSteps, 1000,
+        runUntil(lambda: servo.error < tolerance and utils.unbalancedForce() < unbalanced, maxSteps, 1000,
                   "UNREACHED", progress, "compressing")
     except SampleError as problem:
         if "UNREACHED" not in str(problem):
@@ -240,10 +263,10 @@ def relax(unbalanced=1e-4, maxSteps=400_000, progress=None):
     """
     from yade import utils
 
-    _runUntil(lambda: utils.unbalancedForce() < unbalanced, maxSteps, 500,
+    runUntil(lambda: utils.unbalancedForce() < unbalanced, maxSteps, 500,
               f"the grains did not come to rest: unbalanced force {{unbalanced}} after {maxSteps} steps, wanted {unbalanced}",
               progress, "relaxing")
-    for body in _grains():
+    for body in grainBodies():
         body.state.vel = body.state.angVel = (0, 0, 0)
 
 
@@ -258,7 +281,7 @@ def bond(capillaryStrength=0.0, tensileStrength=0.0, shearStrength=0.0):
     for name, value in (("capillaryStrength", capillaryStrength), ("tensileStrength", tensileStrength), ("shearStrength", shearStrength)):
         if not (math.isfinite(value) and value >= 0):
             raise CaseError(f"{name} = {value}, allowed: >= 0")
-    for material in {id(body.material): body.material for body in _grains()}.values():
+    for material in {id(body.material): body.material for body in grainBodies()}.values():
         material.capillaryStrength = capillaryStrength
         material.tensileStrength = tensileStrength
         material.shearStrength = shearStrength

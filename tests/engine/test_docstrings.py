@@ -18,7 +18,7 @@ HEADERS = sorted((Path(__file__).resolve().parents[2] / "pkg" / "engines").glob(
 ATTRIBUTE = re.compile(r'^\t*\(\((?P<type>[\w:<>]+),(?P<name>\w+),(?P<middle>.*?),"(?P<doc>(?:[^"\\]|\\.)*)"\)\)', re.MULTILINE)
 #: A unit in square brackets, [-] for none; not a reference like [Jain2008]_.
 UNIT = re.compile(r"\[(-|ids|(?:m|s|N|Pa|kg|rad|J)(?:[²³]|\^-?\d|/(?:m|s|kg)[²³]?)*)\](?!_)")
-MODULES = [module.name for module in pkgutil.iter_modules(capfrac.__path__) if not module.name.startswith("_")]
+MODULES = [module.name.removeprefix("capfrac.") for module in pkgutil.walk_packages(capfrac.__path__, "capfrac.") if "._" not in module.name]
 
 
 def attributes():

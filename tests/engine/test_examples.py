@@ -49,3 +49,46 @@ def test_ownPacking(tmp_path, capsys):
     assert summary["sample"]["grains"] == 60
     # 4.83 gamma/r = 48.3 Pa for r = 5 mm at contact; radii go down to 4.65 mm (52 Pa), gaps open throats further.
     assert 20 < summary["mode"]["breakthroughPressure"] < 52
+
+
+def test_sedimentation(tmp_path):
+    results = example("04_sedimentation").main(str(tmp_path / "run"), grainCount=60)
+    # Two stages: the step of one contact, then that of grains on several, sqrt(m/K) of two to six contacts.
+    assert 0.2 < results["settled"] / results["freeFall"] < 0.7
+    assert 0.15 < results["porosity"] < 0.35
+    for picture in ("figure7", "figure8"):
+        assert (tmp_path / "run" / "pictures" / f"{picture}.png").stat().st_size > 5000
+
+
+def test_timeStepScaling(tmp_path):
+    results = example("05_time_step").main(str(tmp_path / "run"), grainCount=30)
+    assert results["radius"]["exponent"] == pytest.approx(1, abs=0.01)
+    assert results["stiffness"]["exponent"] == pytest.approx(-0.5, abs=0.005)
+
+
+def test_compaction(tmp_path):
+    found = example("06_compaction").main(str(tmp_path), grainCount=60, strain=0.1, loops=(0.05,))
+    assert found.table["strain [-]"][-1] == pytest.approx(0.1, abs=1e-8)
+    assert 0 < found.loops[0]["Cr"] < 3 * found.Cc and 0.3 < found.loops[0]["recovered"] < 1
+    assert found.quasiStatic["inertialNumber"] < 1e-3
+    assert (tmp_path / "compaction.png").stat().st_size > 5000
+
+
+def test_stressPaths():
+    last = example("09_stress_paths").main(grainCount=60, strain=0.01)
+    assert max(row["servoError [-]"] for row in last.values()) <= 0.005
+    assert last["isotropic"]["stressH [Pa]"] == pytest.approx(40e3, rel=0.01)
+    assert last["k0"]["stressH [Pa]"] < last["k0"]["stressV [Pa]"]
+
+
+def test_biaxial(tmp_path):
+    found = example("10_biaxial").main(str(tmp_path), grainCount=60, stresses=(20e3, 100e3), strain=0.03)
+    assert found["cohesion"] > 0 and 0 < found["frictionAngle"] < 45
+    assert 0 < found["poissonRatio"] < 1 and 5e5 < found["youngModulus"] < 1e7
+    assert all(test["quasiStatic"]["servoError"] <= 0.005 for test in found["tests"])
+
+
+def test_contactLaw(tmp_path):
+    found = example("13_contact_law").main(str(tmp_path))
+    assert {"loading", "slip", "tension", "shear", "recontact"} <= set(found)
+    assert max(path["error"] for path in found.values()) < 1e-9

@@ -13,7 +13,7 @@ def bits():
 def test_sampleOfASeed():
     def make(seed):
         O.reset()
-        sediment.makeSample(sediment.Sediment(grainCount=12, rMin=1e-3, seed=seed), 10e3, 8e3)
+        sediment.makeSample(sediment.Sediment(grainCount=12, rMin=1e-3, rMax=2e-3, seed=seed), 10e3, 8e3)
         return bits()
 
     assert make(3) == make(3)
@@ -37,7 +37,7 @@ def test_runThatDeforms(loadSample):
 def test_drawnSampleHasTheShapeOfItsSeedWhateverItsSize(scale):
     # Radii and places scale with rMin to round-off: a sample of 1 um can be compared with one of 1 mm, grain by grain.
     def drawn(factor):
-        sample = sediment.Sediment(grainCount=12, rMin=1e-3 * factor, seed=3)
+        sample = sediment.Sediment(grainCount=12, rMin=1e-3 * factor, rMax=2e-3 * factor, seed=3)
         x, y, width, height = sediment.placeGrains(sample, sediment.drawRadii(sample))
         return [v / factor for v in (*x, *y, width, height)]
 

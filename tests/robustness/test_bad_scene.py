@@ -186,7 +186,7 @@ def test_packingOfGrainsInEachOther(second, message):
 def test_grainsThatFlyOffEndTheWait(four):
     put(5, pos=tuple(O.bodies[4].state.pos))  # coincident: the contact has no direction, places become NaN
     with pytest.raises(SampleError, match=r"body #\d flew off while compressing .* the time step O.dt = .* s is too large, or grains lay in each other"):
-        sediment.compress(sediment.Sediment(rMin=R), 1e3, 1e3, maxSteps=100_000)
+        sediment.compress(sediment.Sediment(rMin=R, rMax=2 * R), 1e3, 1e3, maxSteps=100_000)
 
 
 @pytest.mark.parametrize("attributes, message", [

@@ -1,0 +1,168 @@
+"""Grain size distributions: from which the radii of a sample are drawn.
+
+    from capfrac import grading, sediment
+    sample = sediment.Sediment(grainCount=500, grading=grading.Lognormal(median=1e-3, spread=0.3))
+    sample = sediment.Sediment(grainCount=500, grading=grading.readSieve("curve.csv"))
+
+A grading has ``rMin`` and ``rMax`` [m] and ``draw(count, rng)``, radii [m] in random order. Radii are drawn from equally
+likely strata, one from each, so that even a few hundred grains follow the distribution closely.
+
+Masses are those of the model's grains, disks of equal thickness and density: proportional to r^2. A sieve curve of a
+real sediment is thus met in per cent by mass, not in numbers of grains.
+"""
+
+import csv
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from capfrac.errors import CaseError
+
+
+def _strata(count, rng):
+    """One number from each of ``count`` equal parts of [0, 1), shuffled."""
+    return rng.permutation((np.arange(count) + rng.random(count)) / count)
+
+
+def _requirePositive(owner, **values):
+    for name, value in values.items():
+        if not (isinstance(value, (int, float)) and math.isfinite(value) and value > 0):
+            raise CaseError(f"{owner}.{name} = {value!r}, allowed: a finite number > 0")
+
+
+@dataclass(frozen=True)
+class Uniform:
+    """Radii uniform by number in [rMin, rMax] [m], as in the paper. :class:`CaseError` unless 0 < rMin <= rMax."""
+
+    rMin: float
+    rMax: float
+
+    def __post_init__(self):
+        _requirePositive("Uniform", rMin=self.rMin, rMax=self.rMax)
+        if self.rMax < self.rMin:
+            raise CaseError(f"Uniform.rMax = {self.rMax} m, allowed: >= rMin = {self.rMin} m")
+
+    def draw(self, count, rng):
+        """``count`` radii [m]."""
+        return self.rMin + (self.rMax - self.rMin) * _strata(count, rng)
+
+
+@dataclass(frozen=True)
+class Lognormal:
+    """Radii lognormal by number: ln r is normal around ln ``median`` [m] with the standard deviation ``spread`` [-].
+
+    Cut off at ``cut`` standard deviations on both sides (default 2: 95 % of the grains), because single grains of
+    extreme size make a small sample arbitrary and its time step short. :class:`CaseError` unless all are > 0.
+    """
+
+    median: float
+    spread: float
+    cut: float = 2.0
+
+    def __post_init__(self):
+        _requirePositive("Lognormal", median=self.median, spread=self.spread, cut=self.cut)
+
+    @property
+    def rMin(self):
+        """Smallest radius [m]."""
+        return self.median * math.exp(-self.cut * self.spread)
+
+    @property
+    def rMax(self):
+        """Largest radius [m]."""
+        return self.median * math.exp(self.cut * self.spread)
+
+    def draw(self, count, rng):
+        """``count`` radii [m]."""
+        from statistics import NormalDist
+
+        normal = NormalDist()
+        low, high = normal.cdf(-self.cut), normal.cdf(self.cut)
+        return np.array([self.median * math.exp(self.spread * normal.inv_cdf(low + (high - low) * u)) for u in _strata(count, rng)])
+
+
+@dataclass(frozen=True)
+class Sieve:
+    """A sieve curve: ``diameter`` [m], ascending, and ``passing`` [%] by mass, from 0 to 100, not descending.
+
+    Between two sieves the curve is a straight line over the logarithm of the diameter, as it is drawn. Raises
+    :class:`CaseError` naming the entry (counted from 1) that breaks a rule.
+    """
+
+    diameter: tuple
+    passing: tuple
+
+    def __post_init__(self):
+        d, p = tuple(map(float, self.diameter)), tuple(map(float, self.passing))
+        object.__setattr__(self, "diameter", d)
+        object.__setattr__(self, "passing", p)
+        if len(d) != len(p) or len(d) < 2:
+            raise CaseError(f"sieve curve: {len(d)} diameters and {len(p)} percentages, allowed: as many of both, at least two")
+        for k in range(len(d)):
+            if not (math.isfinite(d[k]) and d[k] > 0 and 0 <= p[k] <= 100):
+                raise CaseError(f"sieve curve, entry {k + 1}: diameter {d[k]:g} m, passing {p[k]:g} %; allowed: diameter > 0, 0 to 100 %")
+            if k and (d[k] <= d[k - 1] or p[k] < p[k - 1]):
+                raise CaseError(f"sieve curve, entry {k + 1}: diameter {d[k]:g} m after {d[k - 1]:g} m, passing {p[k]:g} % after {p[k - 1]:g} %; "
+                                "allowed: larger diameters, percentages that do not fall (a sieve curve is monotone)")
+        if p[0] != 0 or p[-1] != 100:
+            raise CaseError(f"sieve curve: runs from {p[0]:g} % to {p[-1]:g} % passing, allowed: from 0 % (add the diameter of the finest grain) "
+                            "to 100 % (add that of the coarsest)")
+
+    def _filled(self):
+        """Bins that hold mass: arrays of lower and upper diameter [m] and share of the mass [-]."""
+        d, p = np.array(self.diameter), np.array(self.passing) / 100
+        held = np.diff(p) > 0
+        return d[:-1][held], d[1:][held], np.diff(p)[held]
+
+    @property
+    def rMin(self):
+        """Smallest radius [m]."""
+        return 0.5 * float(self._filled()[0][0])
+
+    @property
+    def rMax(self):
+        """Largest radius [m]."""
+        return 0.5 * float(self._filled()[1][-1])
+
+    def draw(self, count, rng):
+        """``count`` radii [m]."""
+        low, high, mass = self._filled()
+        # Mass is spread evenly over ln d and a disk weighs as d^2, so numbers are spread evenly over d^-2:
+        # n(d) dln d ~ m / ln(high/low) d^-2 dln d, and d^-2 dln d = -1/2 d(d^-2).
+        number = mass / np.log(high / low) * 0.5 * (low**-2 - high**-2)
+        edge = np.concatenate([[0], np.cumsum(number) / number.sum()])
+        u = _strata(count, rng)
+        k = np.clip(np.searchsorted(edge, u, side="right") - 1, 0, len(low) - 1)
+        within = (u - edge[k]) / (edge[k + 1] - edge[k])
+        return 0.5 / np.sqrt(low[k] ** -2 - within * (low[k] ** -2 - high[k] ** -2))
+
+
+def readSieve(path):
+    """A :class:`Sieve` from a CSV file with the columns ``diameter`` [m] and ``passing`` [%], finest first; # begins a comment."""
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            reader = csv.DictReader(line for line in stream if line.strip() and not line.lstrip().startswith("#"))
+            header = [name.strip() for name in reader.fieldnames or []]
+            if not {"diameter", "passing"} <= set(header):
+                raise CaseError(f"{path}: columns {header}, needed: diameter [m], passing [%]")
+            reader.fieldnames = header
+            try:
+                rows = [(float(row["diameter"]), float(row["passing"])) for row in reader]
+            except (TypeError, ValueError):
+                raise CaseError(f"{path}: a line does not hold two numbers, diameter [m] and passing [%]") from None
+    except OSError as problem:
+        raise CaseError(f"the sieve curve {path} cannot be read: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise CaseError(f"the sieve curve {path} is not a text in UTF-8") from None
+    try:
+        return Sieve(tuple(d for d, _ in rows), tuple(p for _, p in rows))
+    except CaseError as problem:
+        raise CaseError(f"{path}: {problem}") from None
+
+
+def passing(radii, diameters):
+    """Per cent by mass (r^2) of the grains with ``radii`` [m] that are finer than each of ``diameters`` [m]."""
+    radii = np.sort(np.asarray(radii, dtype=float))
+    mass = np.concatenate([[0], np.cumsum(radii**2)])
+    return 100 * mass[np.searchsorted(2 * radii, diameters, side="right")] / mass[-1]

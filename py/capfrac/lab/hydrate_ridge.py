@@ -1,0 +1,136 @@
+"""Hydrate Ridge: the model's compaction against what is reported of the sediment (Figure 10).
+
+Reported (Tan, Germaine & Flemings 2006, Proc. ODP Sci. Results 204, doi:10.2973/odp.proc.sr.204.102.2006, abstract; Site
+1244, eight whole-core samples from 5 to 136 mbsf): compression index C_c 0.340-0.704, average 0.568; recompression index
+C_r 0.035-0.064, average 0.052. The curves of the laboratory are not public in that text, so none is drawn here: the
+comparison is with the range of slopes. Indices are read as void ratio per tenfold stress (an inference: the symbols, and
+0.009 (LL - 10) = 0.64 for the liquid limit of 81).
+
+Strains are what a two-dimensional pack and a clay have in common; the void ratio of the sediment turns them into indices.
+Its default, 1.5, is that of the porosity model of Hydrate Ridge at about 80 mbsf (0.60), computed, not measured.
+"""
+
+import csv
+import math
+
+import numpy as np
+
+from capfrac import sediment
+from capfrac.errors import CaseError
+from capfrac.lab import compaction
+from capfrac.lab.box import INERTIAL_NUMBER
+from capfrac.lab.run import LabRun
+
+#: Reported indices [-]: smallest, largest, average.
+CC_REPORTED = (0.340, 0.704, 0.568)
+CR_REPORTED = (0.035, 0.064, 0.052)
+#: Strain at the end of the runs, and of the loops in them [-], as in the paper.
+STRAIN, LOOPS = 0.25, (0.05, 0.10, 0.15, 0.20)
+
+
+def hydrateRidge(sample, voidRatio=1.5, preload=10e3, fitFrom=100e3, fitTo=1e6, laboratory=None, inertialNumber=INERTIAL_NUMBER, run=None):
+    """Fit k_n to the reported average C_c, compact with loops at the fit, and compare with the reported ranges; a dict.
+
+    ``stiffness``: k_n [N/m] fitted to the average, and those for the ends of the range; ``compactions``: a
+    :class:`~capfrac.lab.compaction.Compaction` as a dict of each; ``local``: where the slope of the average's curve lies in the
+    reported range; ``laboratory``: curves of the user's own (see :func:`readLaboratory`); ``verdict``: in words.
+    """
+    run = run or LabRun("hydrate-ridge", {})
+    curve = readLaboratory(laboratory, voidRatio) if laboratory else None
+    fits = {}
+    for name, index in (("average", CC_REPORTED[2]), ("stiffest", CC_REPORTED[0]), ("softest", CC_REPORTED[1])):
+        start = fits["average"]["normalStiffness"] * CC_REPORTED[2] / index if fits else sample.normalStiffness
+        ratio = sample.shearStiffness / sample.normalStiffness
+        run.report(f"searching k_n for C_c = {index:g}")
+        fits[name] = compaction.findStiffness(sediment.changed(sample, normalStiffness=start, shearStiffness=ratio * start), index, fitFrom, fitTo, voidRatio,
+                                              preload, 0.02, inertialNumber, run)
+    compactions = {}
+    for name, fit in fits.items():
+        k = fit["normalStiffness"]
+        other = sediment.changed(sample, normalStiffness=k, shearStiffness=k * sample.shearStiffness / sample.normalStiffness)
+        compactions[name] = run.result(f"compaction with loops, k_n {k:.6g} N/m", lambda: compaction.compact(
+            other, preload, STRAIN, LOOPS, voidRatio=voidRatio, fitFrom=fitFrom, fitTo=None, inertialNumber=inertialNumber, run=run).asDict())
+    result = {"stiffness": {name: fit["normalStiffness"] for name, fit in fits.items()}, "Cc": {name: fit["Cc"] for name, fit in fits.items()},
+              "fits": fits, "compactions": compactions, "laboratory": curve, "voidRatio": voidRatio,
+              "reported": {"Cc": CC_REPORTED, "Cr": CR_REPORTED}, "local": inReportedRange(compactions["average"])}
+    result["verdict"] = verdict(result)
+    return result
+
+
+def localIndex(found, points=60, window=0.3):
+    """Local C_c of a compaction (as a dict) against stress: arrays of stress [Pa] and -de/dlog10(sigma) [-].
+
+    The slope of a least-squares line through the virgin curve within ``window`` decades.
+    """
+    branch = np.array(found["table"]["branch"])
+    strain, stress = (np.array(found["table"][name])[branch == "virgin"] for name in ("strain [-]", "stressV [Pa]"))
+    low, high = math.log10(stress[0]) + window / 2, math.log10(stress.max()) - window / 2
+    at = np.linspace(low, high, points)
+    slopes = [compaction.compressionSlope(strain, stress, 10 ** (a - window / 2), 10 ** (a + window / 2)) for a in at]
+    return 10**at, (1 + found["voidRatio"]) * np.array(slopes)
+
+
+def inReportedRange(found):
+    """Stresses [Pa] between which the local C_c lies within the reported range: [from, to], or [] if nowhere."""
+    stress, index = localIndex(found)
+    inside = stress[(index >= CC_REPORTED[0]) & (index <= CC_REPORTED[1])]
+    return [float(inside.min()), float(inside.max())] if len(inside) else []
+
+
+def verdict(result):
+    """What agrees with the reported ranges and what does not, in words: a list of sentences."""
+    low, high, average = CC_REPORTED
+    text = [f"Compression: with k_n = {result['stiffness']['average']:.3g} N/m the model has C_c = {result['Cc']['average']:.3f} between the fitted stresses, "
+            f"the reported average ({average}); k_n from {result['stiffness']['softest']:.3g} to {result['stiffness']['stiffest']:.3g} N/m spans the reported range "
+            f"({low}-{high}). This is a fit of one parameter, not a prediction."]
+    if result["local"]:
+        a, b = result["local"]
+        text.append(f"Shape: the slope is inside the reported range from {a:.3g} to {b:.3g} Pa only. It grows with stress, for contacts are linear springs: a clay's "
+                    "is about constant over decades of stress.")
+    else:
+        text.append("Shape: the slope lies nowhere inside the reported range.")
+    loops = result["compactions"]["average"]["loops"]
+    if loops:
+        indices = [loop["Cr"] for loop in loops]
+        inside = [CR_REPORTED[0] <= c <= CR_REPORTED[1] for c in indices]
+        agreement = "agrees" if all(inside) else "does not agree" if not any(inside) else "agrees in part"
+        text.append(f"Unloading: C_r from {min(indices):.3f} to {max(indices):.3f}, reported {CR_REPORTED[0]}-{CR_REPORTED[1]}: {agreement}. "
+                    f"C_r/C_c is {np.mean(indices) / result['Cc']['average']:.2f} against a reported 0.09: the sediment becomes much stiffer on unloading than the model, "
+                    "as the paper says of its own model." if not all(inside) else f"Unloading: C_r from {min(indices):.3f} to {max(indices):.3f}, within the reported range.")
+        text.append(f"Loops: {loops[-1]['recovered']:.0%} of the strain is recovered when unloaded from {loops[-1]['strain']:.0%}; hysteresis "
+                    f"{loops[-1]['hysteresis']:.0%} of the work of reloading.")
+    if result["laboratory"] is None:
+        text.append("No laboratory curve is drawn: none was given, and none is public. Give your own as a CSV.")
+    return text
+
+
+def readLaboratory(path, voidRatio):
+    """A laboratory curve: dict of ``stress`` [Pa] and ``strain`` [-], from a CSV with the columns stress and strain or voidRatio.
+
+    Raises :class:`CaseError` naming the line.
+    """
+    stress, strain = [], []
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            reader = csv.DictReader(line for line in stream if line.strip() and not line.lstrip().startswith("#"))
+            header = [name.strip() for name in reader.fieldnames or []]
+            if "stress" not in header or not {"strain", "voidRatio"} & set(header):
+                raise CaseError(f"{path}: columns {header}, needed: stress [Pa] and strain [-] or voidRatio [-]")
+            reader.fieldnames = header
+            for number, row in enumerate(reader, start=1):
+                try:
+                    p = float(row["stress"])
+                    s = float(row["strain"]) if "strain" in header else 1 - (1 + float(row["voidRatio"])) / (1 + voidRatio)
+                except (TypeError, ValueError):
+                    raise CaseError(f"{path}: row {number} is {dict(row)}, needed: numbers") from None
+                if not (math.isfinite(p) and p > 0 and math.isfinite(s)):
+                    raise CaseError(f"{path}: row {number} has stress = {p}, strain = {s}; allowed: stress > 0, finite")
+                stress.append(p)
+                strain.append(s)
+    except OSError as problem:
+        raise CaseError(f"the laboratory curve {path} cannot be read: {problem.strerror}") from None
+    except UnicodeDecodeError:
+        raise CaseError(f"the laboratory curve {path} is not a text in UTF-8") from None
+    if not stress:
+        raise CaseError(f"{path}: holds no rows")
+    return {"stress": stress, "strain": strain, "name": str(path)}

@@ -1,0 +1,108 @@
+"""What may be given to the laboratory tests: keys with units and defaults, for `capfrac lab` and for files.
+
+Every test knows the section ``grains`` and a section of its own. From a script the tests take a
+:class:`~capfrac.sediment.Sediment` and keyword arguments of the same names.
+"""
+
+from pathlib import Path
+
+from capfrac import grading, keys
+from capfrac.errors import CaseError
+from capfrac.keys import Key, notNegative, positive
+from capfrac.sediment import Sediment
+
+GRAINS = (
+    Key("grains", "count", int, "-", 300, "Number of grains.", low=10),
+    positive("grains", "rMin", "m", 1e-3, "Smallest grain radius (uniform)."),
+    Key("grains", "rMax", float, "m", None, "Largest grain radius (uniform); default 5/3 rMin.", low=0, openLow=True),
+    Key("grains", "distribution", str, "-", "uniform", "Size distribution.", choices=("uniform", "lognormal", "sieve")),
+    positive("grains", "median", "m", 1e-3, "Median radius (lognormal)."),
+    positive("grains", "spread", "-", 0.25, "Standard deviation of ln r (lognormal)."),
+    Key("grains", "sieve", str, "-", "", "Sieve curve (sieve): CSV with the columns diameter [m] and passing [%] by mass."),
+    Key("grains", "seed", int, "-", 1, "Seed of all random numbers; the same seed gives the same run.", low=0),
+    positive("grains", "density", "kg/m^3", 2650.0, "Density of the grains."),
+    positive("grains", "normalStiffness", "N/m", 1e7, "Normal stiffness k_n of a contact."),
+    Key("grains", "shearStiffness", float, "N/m", None, "Shear stiffness k_s of a contact; default k_n.", low=0),
+    notNegative("grains", "friction", "-", 0.5, "Coefficient of friction between grains."),
+    positive("grains", "aspect", "-", 1.0, "Height over width of the settled sample, about."),
+)
+_INERTIAL = Key("", "inertialNumber", float, "-", 5e-4, "Inertial number of the test; quasi-static up to 1e-3.", low=0, openLow=True, high=1e-2)
+
+
+def _own(section, *own):
+    """Keys of a test: those of the grains, and its own put into its section."""
+    from dataclasses import replace
+
+    return GRAINS + tuple(replace(key, section=section) for key in own)
+
+
+_COMPACTION = (
+    positive("", "preload", "Pa", 10e3, "Isotropic stress at which the test begins and strains count from zero."),
+    Key("", "strain", float, "-", 0.25, "Vertical strain at the end.", low=0, openLow=True, high=0.5),
+    Key("", "loops", list, "-", (0.05, 0.10, 0.15, 0.20), "Vertical strains at which the sample is unloaded and reloaded."),
+    Key("", "unloadTo", float, "-", 0.1, "Share of the vertical stress that is left at the end of unloading.", low=0, openLow=True, high=0.9),
+    Key("", "voidRatio", float, "-", None, "Void ratio at the preload that strains are turned into void ratios with; default the sample's own.", low=0, openLow=True),
+    Key("", "fitFrom", float, "Pa", None, "Lower end of the stresses over which C_c is taken; default a tenth of the largest.", low=0, openLow=True),
+    Key("", "fitTo", float, "Pa", None, "Upper end of the stresses over which C_c is taken; default the largest.", low=0, openLow=True),
+    _INERTIAL,
+)
+_BIAXIAL = (
+    Key("", "stresses", list, "Pa", (20e3, 50e3, 100e3), "Confining stresses of the tests, at least two."),
+    Key("", "strain", float, "-", 0.08, "Vertical strain at the end of each.", low=0, openLow=True, high=0.3),
+    notNegative("", "bondStrength", "Pa", 0.0, "Strength of the bonds, sigma_c = tau_c of Eq. 5; 0: no bonds."),
+    _INERTIAL,
+)
+
+#: Keys of each test.
+TESTS = {
+    "settle": _own("settle", Key("", "gravity", float, "m/s^2", None, "Gravity; default as weak as a pack of any grain size settles alike.", low=0, openLow=True),
+                   Key("", "safety", float, "-", 0.6, "Safety factor of the time step.", low=0, openLow=True, high=0.9)),
+    "timestep": _own("timestep", Key("", "radii", list, "m", (1e-6, 1e-5, 1e-4, 1e-3, 1e-2), "Smallest grain radii, at least three."),
+                     Key("", "stiffnesses", list, "N/m", (1e5, 1e6, 1e7, 1e8, 1e9), "Normal stiffnesses, at least three."),
+                     Key("", "seeds", int, "-", 2, "Samples of each radius and stiffness.", low=1),
+                     Key("", "safety", float, "-", 0.6, "Safety factor of the time step.", low=0, openLow=True, high=0.9)),
+    "path": _own("path", Key("", "mode", str, "-", "isotropic", "What the walls do.", choices=("uniaxial", "biaxial", "meanStress", "isotropic", "k0")),
+                 positive("", "preload", "Pa", 10e3, "Isotropic stress at which the test begins."),
+                 Key("", "strain", float, "-", 0.05, "Vertical strain at the end (modes driven by strain).", low=0, openLow=True, high=0.5),
+                 Key("", "stresses", list, "Pa", (20e3, 50e3, 100e3, 200e3), "Stresses, one after the other (modes driven by stress)."), _INERTIAL),
+    "compact": _own("compact", *_COMPACTION),
+    "fit": _own("fit", positive("", "compressionIndex", "-", 0.1, "C_c that is asked for: fall of the void ratio per tenfold stress."),
+                *(key for key in _COMPACTION if key.name not in ("loops", "unloadTo", "strain", "fitFrom", "fitTo")),
+                positive("", "fitFrom", "Pa", 100e3, "Lower end of the stresses over which C_c is taken."),
+                positive("", "fitTo", "Pa", 1e6, "Upper end of the stresses over which C_c is taken."),
+                Key("", "tolerance", float, "-", 0.01, "Relative error of C_c that ends the search.", low=0, openLow=True, high=0.2)),
+    "hydrate-ridge": _own("hydrate-ridge", positive("", "voidRatio", "-", 1.5, "Void ratio of the sediment at the preload."),
+                          Key("", "laboratory", str, "-", "", "A laboratory curve of your own: CSV with stress [Pa] and strain [-] (or voidRatio)."),
+                          positive("", "preload", "Pa", 10e3, "Stress at which strains count from zero."),
+                          positive("", "fitFrom", "Pa", 100e3, "Lower end of the stresses over which C_c is taken."),
+                          positive("", "fitTo", "Pa", 1e6, "Upper end of the stresses over which C_c is taken."), _INERTIAL),
+    "biaxial": _own("biaxial", *_BIAXIAL),
+    "sizes": _own("sizes", Key("", "radii", list, "m", (1e-6, 1e-5, 1e-4, 1e-3, 1e-2), "Smallest grain radii."), *_BIAXIAL),
+    "sensitivity": _own("sensitivity", positive("", "factor", "-", 2.0, "Factor by which each micro parameter is raised and lowered."),
+                        *(key for key in _BIAXIAL if key.name != "bondStrength"), positive("", "bondStrength", "Pa", 100e3, "Strength of the bonds of the reference sample.")),
+    "contacts": GRAINS[8:12],
+}
+
+
+def resolve(test, raw, source="arguments"):
+    """Check the sections ``raw`` against the keys of ``test`` and fill in the defaults. Raises :class:`CaseError`."""
+    values = keys.resolve(raw, TESTS[test], source)
+    for name, entries in values.items():
+        for key, value in entries.items():
+            if isinstance(value, list) and not all(isinstance(v, (int, float)) and not isinstance(v, bool) and v > 0 for v in value):
+                raise CaseError(f"{source}: {name}.{key} = {value}, allowed: numbers > 0")
+    return values
+
+
+def sedimentOf(grains, folder="."):
+    """The :class:`~capfrac.sediment.Sediment` that a section ``grains`` describes; a sieve curve is looked for in ``folder``."""
+    shared = {name: grains[name] for name in ("seed", "density", "normalStiffness", "shearStiffness", "friction", "aspect")}
+    if grains["distribution"] == "lognormal":
+        shared["grading"] = grading.Lognormal(grains["median"], grains["spread"])
+    elif grains["distribution"] == "sieve":
+        if not grains["sieve"]:
+            raise CaseError("grains.sieve = '', allowed: the path of a CSV file, with grains.distribution = 'sieve'")
+        shared["grading"] = grading.readSieve(Path(folder) / grains["sieve"])
+    else:
+        shared.update(rMin=grains["rMin"], rMax=grains["rMax"])
+    return Sediment(grainCount=grains["count"], **shared)
