@@ -75,7 +75,9 @@ int Ip2_DiskMat_DiskMat_CohFrictPhys::bondContacts()
 		if (strength.normal <= 0 && strength.shear <= 0) continue;
 		if (phys->ks > 0 && phys->shearForce.norm() > thickness * strength.shear) continue; // it would break at once
 		phys->normalAdhesion = thickness * strength.normal;
-		phys->shearAdhesion  = thickness * strength.shear;
+		// YADE's law reads a shear strength of zero as "none given" and puts friction in its place; by Eq. 2 a bond
+		// without shear strength breaks at any shear.
+		phys->shearAdhesion  = math::max(thickness * strength.shear, std::numeric_limits<Real>::min());
 		phys->cohesionBroken = false;
 		++nBonded;
 	}

@@ -13,6 +13,7 @@ real sediment is thus met in per cent by mass, not in numbers of grains.
 
 import csv
 import math
+import numbers
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,7 +28,7 @@ def _strata(count, rng):
 
 def _requirePositive(owner, **values):
     for name, value in values.items():
-        if not (isinstance(value, (int, float)) and math.isfinite(value) and value > 0):
+        if isinstance(value, bool) or not (isinstance(value, numbers.Real) and math.isfinite(value) and value > 0):
             raise CaseError(f"{owner}.{name} = {value!r}, allowed: a finite number > 0")
 
 
@@ -62,6 +63,8 @@ class Lognormal:
 
     def __post_init__(self):
         _requirePositive("Lognormal", median=self.median, spread=self.spread, cut=self.cut)
+        if self.cut * self.spread > 10:
+            raise CaseError(f"Lognormal.cut * spread = {self.cut * self.spread:g}, allowed: up to 10 (radii over nine decades)")
 
     @property
     def rMin(self):
@@ -94,7 +97,10 @@ class Sieve:
     passing: tuple
 
     def __post_init__(self):
-        d, p = tuple(map(float, self.diameter)), tuple(map(float, self.passing))
+        try:
+            d, p = tuple(map(float, self.diameter)), tuple(map(float, self.passing))
+        except (TypeError, ValueError):
+            raise CaseError(f"sieve curve: diameters {self.diameter!r}, passing {self.passing!r}; allowed: numbers") from None
         object.__setattr__(self, "diameter", d)
         object.__setattr__(self, "passing", p)
         if len(d) != len(p) or len(d) < 2:
@@ -141,15 +147,15 @@ class Sieve:
 def readSieve(path):
     """A :class:`Sieve` from a CSV file with the columns ``diameter`` [m] and ``passing`` [%], finest first; # begins a comment."""
     try:
-        with open(path, newline="", encoding="utf-8") as stream:
+        with open(path, newline="", encoding="utf-8-sig") as stream:  # a spreadsheet may put a mark in front
             reader = csv.DictReader(line for line in stream if line.strip() and not line.lstrip().startswith("#"))
-            header = [name.strip() for name in reader.fieldnames or []]
+            header = [name.split("[")[0].strip() for name in reader.fieldnames or []]  # a unit may stand behind the name
             if not {"diameter", "passing"} <= set(header):
-                raise CaseError(f"{path}: columns {header}, needed: diameter [m], passing [%]")
+                raise CaseError(f"{path}: columns {header}, needed: diameter (in metres), passing (in per cent)")
             reader.fieldnames = header
             try:
                 rows = [(float(row["diameter"]), float(row["passing"])) for row in reader]
-            except (TypeError, ValueError):
+            except (TypeError, ValueError, csv.Error):
                 raise CaseError(f"{path}: a line does not hold two numbers, diameter [m] and passing [%]") from None
     except OSError as problem:
         raise CaseError(f"the sieve curve {path} cannot be read: {problem.strerror}") from None

@@ -20,7 +20,7 @@ import numpy as np
 
 from capfrac import export, figures, mode, sediment, snapshot
 from capfrac.case import MAX_SIZE_RATIO, readCase, resolveCase
-from capfrac.errors import CaseError, RunFolderError, SceneError
+from capfrac.errors import CapfracError, CaseError, RunFolderError, SceneError
 from capfrac.runfolder import RunFolder
 
 #: Time steps between looks at the run [-]; short enough that Ctrl-C answers at once.
@@ -190,8 +190,6 @@ class Run:
 
     def loop(self, bar):
         """Run to the end, with snapshots on the way."""
-        from yade import O
-
         gas, water = self.gas, self.gas.waterPressure
         stops = sorted(p for p in self.case["output"]["pressures"] if self.case["ramp"]["start"] <= p < self.case["ramp"]["max"])
         taken = {e["name"] for e in self.folder.summary["snapshots"]}
@@ -199,7 +197,7 @@ class Run:
         saved, seen = time.time(), 0
         while True:
             gas.maxPressure = water + (stops[0] if stops else self.case["ramp"]["max"])
-            O.run(CHUNK, True)
+            sediment.advance(CHUNK)
             bar(gas.gasPressure - water, gas.gasSaturation)
             if gas.nEvents > seen:
                 seen = gas.nEvents
@@ -284,7 +282,9 @@ def inject(case, folder, restart=False, report=print, bar=lambda pressure, satur
             run.checkpoint()
             runFolder.writeSummary(state="interrupted")
         raise
-    except RuntimeError as problem:  # from an engine in the loop
+    except CapfracError:
+        raise
+    except (RuntimeError, ValueError) as problem:  # from an engine in the loop
         if run.begun:
             runFolder.writeSummary(state="failed", error=str(problem))
         raise SceneError(str(problem)) from problem

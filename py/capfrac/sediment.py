@@ -183,15 +183,27 @@ def _touching(nGrains):
     return O.interactions.countReal() > nGrains
 
 
+def advance(steps):
+    """Run that many time steps here and now.
+
+    ``O.run(steps, True)`` looks for the end only every 40 ms, which is longer than many a stretch of steps takes; and an
+    engine's exception arrives as it was thrown. Interrupted (Ctrl-C), the scene is between two steps.
+    """
+    from yade import O
+
+    for _ in range(steps):
+        O.step()
+
+
 def runUntil(done, maxSteps, chunk, complaint, progress, label):
     """Run in chunks of steps until ``done()``; :class:`SampleError` with ``complaint`` after ``maxSteps``, or when a grain flies off.
 
-    ``{unbalanced}`` in the complaint is filled in. ``progress(label, unbalanced force)`` is called after each chunk.
+    ``complaint`` is a text, in which ``{unbalanced}`` is filled in, or a function that gives it. ``progress(label, unbalanced force)`` is called after each chunk.
     """
     from yade import O, utils
 
     for step in range(0, maxSteps, chunk):
-        O.run(chunk, True)
+        advance(chunk)
         if progress:
             progress(label, utils.unbalancedForce())
         if done():
@@ -200,7 +212,7 @@ def runUntil(done, maxSteps, chunk, complaint, progress, label):
         if lost is not None:
             raise SampleError(f"body #{lost.id} flew off while {label} (its place is {tuple(lost.state.pos)}): the time step O.dt = {O.dt:g} s is too large, "
                               "or grains lay in each other")
-    raise SampleError(complaint.format(unbalanced=utils.unbalancedForce()))
+    raise SampleError(complaint() if callable(complaint) else complaint.format(unbalanced=utils.unbalancedForce()))
 
 
 def wallBodies():

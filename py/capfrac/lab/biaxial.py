@@ -21,10 +21,11 @@ from capfrac.lab.run import LabRun
 ELASTIC_SHARE = 0.25
 
 
-def biaxialTest(sample, stress, strain=0.08, bondStrength=0.0, inertialNumber=INERTIAL_NUMBER, run=None):
+def biaxialTest(sample, stress, strain=0.08, bondStrength=0.0, inertialNumber=INERTIAL_NUMBER, packing=None, run=None):
     """One test at the confining ``stress`` [Pa] up to ``strain``; a dict.
 
-    ``bondStrength``: sigma_c = tau_c of Eq. 5 [Pa], bonds set at the isotropic state; 0: none. The dict holds ``table``
+    ``bondStrength``: sigma_c = tau_c of Eq. 5 [Pa], bonds set at the isotropic state; 0: none. ``packing``
+    (x, y, r) [m]: grains to begin with, instead of settling new ones. The dict holds ``table``
     (columns of :data:`box.COLUMNS`), ``peak`` and ``residual`` (vertical stress [Pa]), ``strainAtPeak``, ``youngModulus``
     [Pa], ``poissonRatio``, ``bonds`` and ``brokenBonds``, ``quasiStatic``. Raises :class:`CaseError` for impossible values.
     """
@@ -35,7 +36,7 @@ def biaxialTest(sample, stress, strain=0.08, bondStrength=0.0, inertialNumber=IN
     box = Box(sample, run, inertialNumber)
 
     def prepare():
-        prepareSample(sample, stress, run)
+        prepareSample(sample, stress, run, packing)
         if bondStrength > 0:
             sediment.bond(tensileStrength=bondStrength, shearStrength=bondStrength)
         box.setReference()
@@ -79,7 +80,7 @@ def mohrCoulomb(confining, peak):
             "residual": float(np.max(np.abs(line - peak) / np.asarray(peak)))}
 
 
-def biaxial(sample, stresses=(20e3, 50e3, 100e3), strain=0.08, bondStrength=0.0, inertialNumber=INERTIAL_NUMBER, run=None):
+def biaxial(sample, stresses=(20e3, 50e3, 100e3), strain=0.08, bondStrength=0.0, inertialNumber=INERTIAL_NUMBER, packing=None, run=None):
     """Biaxial tests at several confining ``stresses`` [Pa]; a dict.
 
     ``tests``: of each stress the dict of :func:`biaxialTest`; ``frictionAngle`` [degrees] and ``cohesion`` [Pa] from the peaks;
@@ -89,7 +90,7 @@ def biaxial(sample, stresses=(20e3, 50e3, 100e3), strain=0.08, bondStrength=0.0,
     if len(set(stresses)) < 2:
         raise CaseError(f"stresses = {list(stresses)}, allowed: at least two different confining stresses")
     bonds = f"bonds {bondStrength:g} Pa" if bondStrength > 0 else "no bonds"
-    tests = [run.result(f"{_label(sample)}, {bonds}, confined at {stress:g} Pa", lambda: biaxialTest(sample, stress, strain, bondStrength, inertialNumber, run))
+    tests = [run.result(f"{_label(sample)}, {bonds}, confined at {stress:g} Pa", lambda: biaxialTest(sample, stress, strain, bondStrength, inertialNumber, packing, run))
              for stress in sorted(stresses)]
     strength = mohrCoulomb([test["stress"] for test in tests], [test["peak"] for test in tests])
     return {"tests": tests, **strength, "youngModulus": float(np.mean([test["youngModulus"] for test in tests])),

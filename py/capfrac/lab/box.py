@@ -112,14 +112,18 @@ class Box:
         self._requireMode(STRAIN_DRIVEN)
         self._checkRoom(target)
         sign = 1 if target > self.strain() else -1
-        while sign * (target - self.strain()) > 1e-9:
+        while sign * (target - self.strain()) > 1e-9 and not (self._lastBranch() == branch and until(self._lastRow())):
             self._drive(sign, min(spacing, abs(target - self.strain())))
             rate = self._settleWalls()
-            row = self.record(branch, rate)
+            self.record(branch, rate)
             self.run.tick()
-            if until(row):
-                break
         sediment.engine("servo").driveVelocity = 0.0
+
+    def _lastBranch(self):
+        return self.rows["branch"][-1] if self.rows["branch"] else None
+
+    def _lastRow(self):
+        return {name: values[-1] for name, values in self.rows.items()}
 
     def stressTo(self, targets, unbalanced=1e-3, maxSteps=500_000, branch="virgin"):
         """Bring the box to each of the stresses ``targets`` [Pa], > 0; a row for each, with the grains at rest.
@@ -137,7 +141,7 @@ class Box:
             servo = sediment.engine("servo")
             servo.stressX = servo.stressY = targets[self.run.data["nTargets"]]
             sediment.runUntil(lambda: servo.error < SERVO_TOLERANCE and utils.unbalancedForce() < unbalanced, maxSteps, 200,
-                              f"the walls did not come to {servo.stressY:g} Pa within {maxSteps} steps: stresses {list(servo.stress)} Pa", None, "compressing")
+                              lambda: f"the walls did not come to {servo.stressY:g} Pa within {maxSteps} steps: stresses {list(servo.stress)} Pa", None, "compressing")
             self.record(branch)
             self.run.data["nTargets"] += 1
             self.run.tick()
@@ -173,7 +177,7 @@ class Box:
         rate = self.inertialNumber / (2 * np.mean(self._radii())) * math.sqrt(mean / self.sample.density)
         steps = max(1, math.ceil(strain / (rate * O.dt)))
         servo.driveVelocity = sign * strain * height / (steps * O.dt)
-        O.run(steps, True)
+        sediment.advance(steps)
         if not all(math.isfinite(s) for s in servo.stress):
             raise SampleError(f"control of the walls was lost at iteration {O.iter}: stresses {list(servo.stress)} Pa; try a smaller inertialNumber")
 

@@ -36,6 +36,8 @@ def runTest(test, values, folder=None, restart=False, report=lambda text: None, 
     from yade import O
 
     sample = parameters.sedimentOf({**_defaults("settle")["grains"], **values["grains"]}, base)
+    if sample.grading is not None:  # a sieve curve counts by what is in it, not by the name of its file
+        values = {**values, "grading": {"name": type(sample.grading).__name__, **vars(sample.grading)}}
     run = LabRun(test, values, folder, restart, report)
     if run.finished:
         report(f"{run.folder.path} holds this test already, finished")
@@ -241,4 +243,4 @@ def asText(test, results):
 
 
 def _plain(value):
-    return f"{value:.5g}" if isinstance(value, float) else str(value)
+    return "-" if value is None else f"{value:.5g}" if isinstance(value, float) else str(value)

@@ -67,13 +67,13 @@ def compact(sample, preload=10e3, strain=0.25, loops=(), unloadTo=0.1, voidRatio
     return evaluate(box.rows, voidRatio, fitFrom, fitTo, box.quasiStatic())
 
 
-def prepareSample(sample, stress, run):
-    """A new sample at rest under the isotropic ``stress`` [Pa], with the progress on ``run``."""
+def prepareSample(sample, stress, run, packing=None):
+    """A new sample, or a ``packing`` (x, y, r) [m], at rest under the isotropic ``stress`` [Pa], with the progress on ``run``."""
 
     def progress(label, unbalanced):
         run.report(f"{label}: unbalanced force {unbalanced:.2g}")
 
-    sediment.makeSample(sample, stress, stress, progress=progress)
+    sediment.makeSample(sample, stress, stress, packing, progress=progress)
 
 
 def _prepare(sample, box, preload, run):

@@ -189,22 +189,24 @@ def _compare(sample, name, overlap, overlaps, slips, normalStrength, shearStreng
     table.update(zip(_CLOSED_FORM, forces))
     normal, sheared = np.array(table["normalForce [N]"]), np.array(table["shearForce [N]"])
     off = np.hypot(normal - forces[0], sheared - forces[1])
-    found = {"table": table, "error": float(np.max(off) / np.max(np.hypot(*forces))), "bondErrors": int(np.sum(np.array(held) != table["bonded"])),
+    bonded = np.array(table["bonded"])
+    found = {"table": table, "error": float(np.max(off) / np.max(np.hypot(*forces))), "bondErrors": int(np.sum(bonded != held)),
              "largestNormalForce": float(np.max(np.abs(normal))), "largestShearForce": float(np.max(np.abs(sheared))), "frictionLimit": mu * kn * overlap}
     if normalStrength > 0:
-        bonded = np.array(table["bonded"])
         asked = -kn * np.array(overlaps) if name == "tension" else np.abs(ks * np.array(slips))
         bore = -normal if name == "tension" else np.abs(sheared)
         found.update(strength=normalStrength if name == "tension" else shearStrength, borne=float(np.max(bore[bonded], initial=0)),
                      brokeAt=math.nan if bonded.all() else float(asked[np.argmin(bonded)]),
-                     tensionAfterwards=float(np.max(np.abs(np.minimum(normal[~bonded], 0)), initial=0)), shearAfterwards=float(np.max(np.abs(sheared[~bonded]), initial=0)))
+                     tensionAfterwards=float(np.max(np.abs(np.minimum(normal[~bonded], 0)), initial=0)),
+                     shearAfterwards=float(np.max(np.abs(sheared[~bonded]), initial=0)))
     return found
 
 
 # --- picture -------------------------------------------------------------------------------------
 
-_PANELS = (("loading", "normal", "pressed and released"), ("tension", "normal", "bond pulled apart, pressed again"), ("recontact", "normal", "broken, parted, pressed again"),
-           ("slip", "shear", "sheared to and fro"), ("shear", "shear", "bond sheared"), ("recontact", "shear", "broken, parted, sheared again"))
+_PANELS = (("loading", "normal", "pressed and released"), ("tension", "normal", "bond pulled apart, pressed again"),
+           ("recontact", "normal", "broken, parted, pressed again"), ("slip", "shear", "sheared to and fro"),
+           ("shear", "shear", "bond sheared"), ("recontact", "shear", "broken, parted, sheared again"))
 
 
 def drawContacts(result, path):
@@ -230,8 +232,8 @@ def drawContacts(result, path):
 
 def _drawPanel(axes, found, name, kind):
     table = found["table"]
-    x, y, expected = (np.array(table[key]) for key in (("overlap [m]", "normalForce [N]", _CLOSED_FORM[0]) if kind == "normal" else
-                                                       ("slip [m]", "shearForce [N]", _CLOSED_FORM[1])))
+    columns = ("overlap [m]", "normalForce [N]", _CLOSED_FORM[0]) if kind == "normal" else ("slip [m]", "shearForce [N]", _CLOSED_FORM[1])
+    x, y, expected = (np.array(table[column]) for column in columns)
     xScale, xUnit = _scaleOf(x, "m")
     yScale, yUnit = _scaleOf(np.concatenate([y, expected]), "N")
     axes.plot(x / xScale, expected / yScale, color=COLOURS["compression"], linewidth=1.4, zorder=2)

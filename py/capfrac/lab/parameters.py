@@ -77,7 +77,7 @@ TESTS = {
                           positive("", "fitFrom", "Pa", 100e3, "Lower end of the stresses over which C_c is taken."),
                           positive("", "fitTo", "Pa", 1e6, "Upper end of the stresses over which C_c is taken."), _INERTIAL),
     "biaxial": _own("biaxial", *_BIAXIAL),
-    "sizes": _own("sizes", Key("", "radii", list, "m", (1e-6, 1e-5, 1e-4, 1e-3, 1e-2), "Smallest grain radii."), *_BIAXIAL),
+    "sizes": _own("sizes", Key("", "radii", list, "m", tuple(1e-2 / 2**n for n in (13, 10, 7, 3, 0)), "Smallest grain radii; those a power of two apart round alike."), *_BIAXIAL),
     "sensitivity": _own("sensitivity", positive("", "factor", "-", 2.0, "Factor by which each micro parameter is raised and lowered."),
                         *(key for key in _BIAXIAL if key.name != "bondStrength"), positive("", "bondStrength", "Pa", 100e3, "Strength of the bonds of the reference sample.")),
     "contacts": GRAINS[8:12],

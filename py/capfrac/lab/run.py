@@ -48,7 +48,8 @@ class LabRun:
         self.folder = None if folder is None else LabFolder(folder, {"test": {"name": test}, **parameters}, restart)
         #: What the stages remember.
         self.data = {}
-        self._done, self._results, self._scene = [], {}, None
+        self._done, self._results, self._scene, self._summary = [], {}, None, {}
+        self._current = None  # the result that the stages belong to
         self._pending = False  # whether the scene of the checkpoint is still to be loaded
         self._count = 0
         if self.folder is not None:
@@ -74,8 +75,11 @@ class LabRun:
             return
         try:
             state = json.loads(path.read_text(encoding="utf-8"))
-            self.data, self._done, self._results, self._scene, self._count = (state[k] for k in ("data", "done", "results", "scene", "count"))
-        except (OSError, ValueError, KeyError) as problem:
+            wanted = {"data": dict, "done": list, "results": dict, "scene": (str, type(None)), "count": int, "current": (str, type(None))}
+            if not (isinstance(state, dict) and all(key in state and isinstance(state[key], kind) for key, kind in wanted.items())):
+                raise ValueError("not the state of a run")
+            self.data, self._done, self._results, self._scene, self._count, self._current = (state[key] for key in wanted)
+        except (OSError, ValueError) as problem:
             raise RunFolderError(f"{path} cannot be read ({problem}); --restart discards the run") from None
         self._pending = self._scene is not None
         if self._done or self._results:
@@ -96,10 +100,11 @@ class LabRun:
 
     def stage(self, name, work):
         """Run ``work()`` unless it has been run; afterwards the scene and ``data`` are safe."""
+        # The last stage that was done brings its scene back even if no other stage is left: results are read off it.
+        if self._pending and (name not in self._done or name == self._done[-1]):
+            self._loadScene()
         if name in self._done:
             return
-        if self._pending:
-            self._loadScene()
         work()
         self._done.append(name)
         self.checkpoint()
@@ -114,11 +119,18 @@ class LabRun:
             return self._results[name]
         from yade import O
 
+        if self._current != name:  # what stages remember is that of other work, which failed
+            self.data, self._done, self._pending, self._current = {}, [], False, name
         if not self._pending:
             O.reset()
         self.report(name)
-        self._results[name] = value = json.loads(json.dumps(work()))  # as it will be read back
-        self.data, self._done, self._pending = {}, [], False
+        try:
+            value = json.loads(json.dumps(work()))  # as it will be read back
+        except BaseException:
+            self._current = None  # for this process; the checkpoint is for the next one
+            raise
+        self._results[name] = value
+        self.data, self._done, self._pending, self._current = {}, [], False, None
         self.checkpoint(scene=False)
         return value
 
@@ -147,7 +159,7 @@ class LabRun:
             self.folder.sub("scenes")
             self._scene = f"scenes/{self._count}.yade.gz"
             self.folder.writeWhole(self._scene, lambda path: O.save(str(path), quiet=True))
-        state = {"data": self.data, "done": self._done, "results": self._results, "scene": self._scene, "count": self._count}
+        state = {"data": self.data, "done": self._done, "results": self._results, "scene": self._scene, "count": self._count, "current": self._current}
         text = json.dumps(state)
         self.folder.writeWhole("state.json", lambda path: path.write_text(text, encoding="utf-8"))
         if old:
@@ -172,8 +184,10 @@ class LabRun:
         if self.folder is None:
             return
         self.folder.writeSummary(state="finished", results=results)
-        if self._scene:
-            (self.folder.path / self._scene).unlink(missing_ok=True)
-        if (self.folder.path / "scenes").exists():
-            (self.folder.path / "scenes").rmdir()
         (self.folder.path / "state.json").unlink(missing_ok=True)
+        scenes = self.folder.path / "scenes"
+        if scenes.is_dir():
+            for entry in list(scenes.glob("*.yade.gz")):  # those of a process that was killed as it wrote or cleared them, too
+                entry.unlink()
+            if not any(scenes.iterdir()):
+                scenes.rmdir()
