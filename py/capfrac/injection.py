@@ -25,8 +25,8 @@ from capfrac.runfolder import RunFolder
 
 #: Time steps between looks at the run [-]; short enough that Ctrl-C answers at once.
 CHUNK = 50
-#: Seconds of real time between checkpoints.
-CHECKPOINT_PERIOD = 30
+#: Time steps between checkpoints [-]: a second or two of 300 grains. A number of steps, not a time: see Run.checkpoint.
+CHECKPOINT_STEPS = 100 * CHUNK
 
 
 def startInjection(start, increment, max, pores=0, wall="bottom", outlet="top", stretch=None, points=(), waterPressure=0.0, **attributes):
@@ -124,13 +124,7 @@ class Run:
 
         if self.folder.checkpoint.exists():
             self.report("taking up the run at its checkpoint")
-            try:
-                O.load(str(self.folder.checkpoint), quiet=True)
-            except (RuntimeError, MemoryError, ValueError) as problem:  # what YADE raises depends on where the file ends to make sense
-                O.reset()
-                raise RunFolderError(f"the checkpoint {self.folder.checkpoint} cannot be read ({problem or type(problem).__name__}): damaged, or of "
-                                     "another version of capfrac or YADE; --restart discards the run") from None
-            self.gas = sediment.engine("gas")
+            self._load()
             self.start = snapshot.load(self.folder.sub("snapshots") / "start.npz")
             self.begun = True
             return
@@ -148,6 +142,17 @@ class Run:
         self.picture("start")
         self.checkpoint()
         self.begun = True
+
+    def _load(self):
+        from yade import O
+
+        try:
+            O.load(str(self.folder.checkpoint), quiet=True)
+        except (RuntimeError, MemoryError, ValueError) as problem:  # what YADE raises depends on where the file ends to make sense
+            O.reset()
+            raise RunFolderError(f"the checkpoint {self.folder.checkpoint} cannot be read ({problem or type(problem).__name__}): damaged, or of "
+                                 "another version of capfrac or YADE; --restart discards the run") from None
+        self.gas = sediment.engine("gas")
 
     def picture(self, name):
         """Take a snapshot: state, picture and fields. Returns the snapshot."""
@@ -168,8 +173,14 @@ class Run:
         return shot
 
     def checkpoint(self):
-        """Save the scene and the logs so that the run can be taken up here."""
+        """Save the scene and the logs so that the run can be taken up here, and go on from what was saved.
+
+        A scene that was loaded holds its contacts in another order, so sums of forces may differ in the last digit. As
+        checkpoints are made after fixed numbers of steps and the run itself goes on from them, an interrupted run ends
+        with the same bits as one that was not.
+        """
         self.folder.saveCheckpoint()
+        self._load()
         self.folder.writeLogs(self.gas)
         self.spent += time.time() - self.clock
         self.clock = time.time()
@@ -190,14 +201,17 @@ class Run:
 
     def loop(self, bar):
         """Run to the end, with snapshots on the way."""
-        gas, water = self.gas, self.gas.waterPressure
+        from yade import O
+
+        water = self.gas.waterPressure
         stops = sorted(p for p in self.case["output"]["pressures"] if self.case["ramp"]["start"] <= p < self.case["ramp"]["max"])
         taken = {e["name"] for e in self.folder.summary["snapshots"]}
         stops = [p for p in stops if f"{p:.0f}Pa" not in taken]
-        saved, seen = time.time(), 0
+        seen = 0
         while True:
+            gas = self.gas  # another one after each checkpoint
             gas.maxPressure = water + (stops[0] if stops else self.case["ramp"]["max"])
-            sediment.advance(CHUNK)
+            sediment.advance(CHUNK - O.iter % CHUNK)
             bar(gas.gasPressure - water, gas.gasSaturation)
             if gas.nEvents > seen:
                 seen = gas.nEvents
@@ -213,16 +227,15 @@ class Run:
             reason = self.ended()
             if reason:
                 return reason
-            if time.time() - saved > CHECKPOINT_PERIOD:
+            if O.iter % CHECKPOINT_STEPS == 0:
                 self.checkpoint()
-                saved = time.time()
 
     def finish(self, reason):
         """Write what a finished run has; the checkpoint goes."""
-        gas = self.gas
         last = self.picture("end")
         moved = np.hypot(*last.displacement.T) / last.r
         self.checkpoint()
+        gas = self.gas
         measured = mode.measureMode(gas)
         levels = gas.levels()
         figures.drawCapillaryCurve(levels, self.folder.path / "curve.png", events=gas.events(), bondCount=self.folder.summary["sample"]["bondsHolding"],
@@ -278,8 +291,7 @@ def inject(case, folder, restart=False, report=print, bar=lambda pressure, satur
         run.begin()
         run.finish(run.loop(bar))
     except KeyboardInterrupt:
-        if run.begun:
-            run.checkpoint()
+        if run.begun:  # the last checkpoint stays
             runFolder.writeSummary(state="interrupted")
         raise
     except CapfracError:
