@@ -282,7 +282,7 @@ void GasInvasionEngine::checkInvariantsNow(const capfrac::DrainageNetwork& netwo
 		after.gas[step.domain] = after.injected[step.domain] = 1;
 	}
 	if (!trapping && invasionInterval == 0 && capfrac::nextEntryPressure(after) <= capillaryPressure()) fail("the avalanche stopped before its end");
-	const Real books = math::abs(thickness * contents.totalGas() - gasIn) + math::abs(thickness * contents.totalWater() - initialVoid - waterIn);
+	const Real books = math::abs(thickness * contents.totalGas() - gasIn) + math::abs(thickness * contents.totalWater() - initialWater - waterIn);
 	if (books > 1e-10 * initialVoid) fail("gas and water do not add up to what entered and left");
 }
 

@@ -57,6 +57,7 @@ void PoreNetworkEngine::build()
 	mesh          = std::move(freshMesh);
 	contents      = capfrac::waterFilled(currentVoids());
 	initialVoid   = thickness * contents.totalWater();
+	initialWater  = initialVoid;
 	openEdges.assign(mesh.edges.size(), capfrac::freshEdge);
 	checkedGrains = reader.grains;
 	checkedBox    = reader.box;
@@ -191,6 +192,7 @@ void PoreNetworkEngine::findDomains()
 
 void PoreNetworkEngine::syncContents()
 {
+	if (!drained()) return;
 	const auto entered = capfrac::followVoids(contents, currentVoids());
 	gasIn += thickness * entered[0];
 	waterIn += thickness * entered[1];

@@ -25,6 +25,8 @@ public:
 	void update();
 	/// Pressure of each cell [Pa].
 	virtual std::vector<double> cellPressures() const;
+	/// Stiffness that the fluid adds to a wall [N/m]; a servo has to know it.
+	virtual Real wallStiffness(int) const { return 0; }
 
 	boost::python::dict pyCells();
 	boost::python::dict pyThroats();
@@ -45,8 +47,10 @@ protected:
 
 	/// Void areas of the cells now [m^2].
 	std::vector<double> currentVoids() const { return capfrac::voidAreas(mesh, reader.grains, reader.box); }
-	/// Lets the contents of the cells follow their voids and books what entered.
+	/// Lets the contents of the cells follow their voids and books what entered; where `drained()`, else nothing.
 	void syncContents();
+	/// Whether the water of a cell follows its void through a reservoir. Engines that solve for its flow keep its mass.
+	virtual bool drained() const { return true; }
 	/// Partition of the cells anew, after phases or open edges changed.
 	void findDomains();
 	bool prepared() const { return !mesh.cells.empty(); }
@@ -118,6 +122,7 @@ or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressure
 		((Real,gasIn,0,Attr::readonly,"Gas that entered the sample through the inlet, less what left, since the start [m³] |yupdate|."))
 		((Real,waterIn,0,Attr::readonly,"Water that entered the sample, less what left, since the start (negative in drainage) [m³] |yupdate|."))
 		((Real,initialVoid,0,Attr::readonly,"Void volume at the start, all water [m³] |yupdate|."))
+		((Real,initialWater,0,Attr::readonly,"Water at the start [m³] |yupdate|; counted at pressure zero where it is compressible."))
 		((std::vector<int>,savedIds,,(Attr::hidden|Attr::readonly),"Grain and wall ids, for saving."))
 		((std::vector<int>,savedCells,,(Attr::hidden|Attr::readonly),"Vertices of the cells, for saving."))
 		((std::vector<int>,savedPhase,,(Attr::hidden|Attr::readonly),"Phases of the cells, for saving."))
@@ -134,7 +139,7 @@ or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressure
 		.def("cells",&PoreNetworkEngine::pyCells,"The cells as a dict of lists: ``vertices`` (body ids, three each), ``polygon`` (corners [m]), ``phase`` (0 water, 1 gas), ``pressure`` [Pa], ``void`` [m³], ``gas`` [m³], ``water`` [m³], ``domain`` [-], ``inlet`` (bool). The sum of the voids is exact; a single one may be negative where a grain of a torn sample reaches through its cell into the next.")
 		.def("throats",&PoreNetworkEngine::pyThroats,"The edges of the network as a dict of lists: ``ids`` (two bodies), ``gap`` [m], ``open`` (joins the cells on its sides), ``cells`` (left and right, -1 outside), ``entryPressure`` [Pa] (NaN where the engine has none).")
 		.def("fluidForces",&PoreNetworkEngine::pyForces,"The forces of the fluids now, as a dict: body id -> (fx, fy) [N].")
-		.def("volumes",&PoreNetworkEngine::pyVolumes,"The ledger as a dict [m³]: ``void``, ``gas``, ``water``, ``gasIn``, ``waterIn``, ``initialVoid``, and ``error``, the relative difference between what is there and what came in.")
+		.def("volumes",&PoreNetworkEngine::pyVolumes,"The ledger as a dict [m³]: ``void``, ``gas``, ``water``, ``gasIn``, ``waterIn``, ``initialVoid``, ``initialWater``, and ``error``, the relative difference between what is there and what came in.")
 		.def("setCellPressures",&PoreNetworkEngine::pySetCellPressures,(boost::python::arg("pressures")),"Hold each cell at a pressure of its own [Pa], in the order of :yref:`cells<PoreNetworkEngine.cells>`; until the next remeshing, which sets them back to :yref:`waterPressure<PoreNetworkEngine.waterPressure>`.")
 	);
 	// clang-format on

@@ -41,8 +41,8 @@ py::dict PoreNetworkEngine::pyCells()
 		phase.append(isGas ? 1 : 0);
 		pressure.append(pressures[c]);
 		voidVolume.append(thickness * voids[c]);
-		gas.append(thickness * (isGas ? voids[c] - contents.water[c] : contents.gas[c]));
-		water.append(thickness * (isGas ? contents.water[c] : voids[c] - contents.gas[c]));
+		gas.append(thickness * (isGas && drained() ? voids[c] - contents.water[c] : contents.gas[c]));
+		water.append(thickness * (isGas || !drained() ? contents.water[c] : voids[c] - contents.gas[c]));
 		domain.append(domains.ofCell[c]);
 		inlet.append(contents.source[c] != 0);
 	}
@@ -91,8 +91,8 @@ py::dict PoreNetworkEngine::pyVolumes()
 	for (double v : currentVoids())
 		voidVolume += thickness * v;
 	d["void"] = voidVolume, d["gas"] = gas, d["water"] = water;
-	d["gasIn"] = gasIn, d["waterIn"] = waterIn, d["initialVoid"] = initialVoid;
-	d["error"] = (math::abs(gas - gasIn) + math::abs(water - initialVoid - waterIn)) / initialVoid;
+	d["gasIn"] = gasIn, d["waterIn"] = waterIn, d["initialVoid"] = initialVoid, d["initialWater"] = initialWater;
+	d["error"] = (math::abs(gas - gasIn) + math::abs(water - initialWater - waterIn)) / initialVoid;
 	return d;
 }
 

@@ -1,5 +1,6 @@
 #include "WallServoEngine.hpp"
 #include "Attributes.hpp"
+#include "PoreNetworkEngine.hpp"
 #include "Walls.hpp"
 
 #include <core/Omega.hpp>
@@ -83,6 +84,10 @@ void WallServoEngine::action()
 		for (int w = 0; phys && w < capfrac::nWalls; ++w)
 			if (interaction->getId1() == reader.wallIds[w] || interaction->getId2() == reader.wallIds[w]) stiffness[w] += phys->kn;
 	}
+	for (const auto& engine : scene->engines) // a fluid that cannot leave at once resists, too
+		if (const auto* network = dynamic_cast<const PoreNetworkEngine*>(engine.get()); network && !network->dead)
+			for (int w = 0; w < capfrac::nWalls; ++w)
+				stiffness[w] += network->wallStiffness(w);
 	for (int w = 0; w < capfrac::nWalls; ++w) {
 		auto&      state   = *(*scene->bodies)[reader.wallIds[w]]->state;
 		const Task todo    = task(w);

@@ -5,9 +5,14 @@
 
 namespace yade {
 
+namespace {
+	const std::array<std::string, capfrac::nWalls> names { "left", "right", "bottom", "top" };
+}
+
+std::string wallName(int wall) { return names[wall]; }
+
 int wallFromName(const std::string& attribute, const std::string& name)
 {
-	static const std::array<std::string, capfrac::nWalls> names { "left", "right", "bottom", "top" };
 	const auto found = std::find(names.begin(), names.end(), name);
 	if (found == names.end()) capfrac::refuseAttribute(attribute, "'" + name + "'", "'left', 'right', 'bottom', 'top'");
 	return static_cast<int>(found - names.begin());

@@ -8,6 +8,9 @@
 
 namespace yade {
 
+/// left, right, bottom or top.
+std::string wallName(int wall);
+
 /// The wall called left, right, bottom or top; throws std::invalid_argument naming `attribute` otherwise.
 int wallFromName(const std::string& attribute, const std::string& name);
 

@@ -8,6 +8,7 @@
 
 #include "../geometry/Triangulation.hpp"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
