@@ -223,8 +223,15 @@ capfrac::FlowStep SinglePhaseFlowEngine::step(capfrac::FlowNetwork& network)
 	switch (scheme) {
 		case Scheme::explicitEuler: return capfrac::explicitStep(network, {}, scene->dt);
 		case Scheme::implicit: return capfrac::implicitStep(network, {}, scene->dt, solver);
-		default: return capfrac::coupledStep(network, skeleton(), scene->dt, solver);
+		default: break;
 	}
+	// Without an integrator the grains stand still, whatever forces and velocities they have.
+	const bool moving = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& engine) {
+		const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get());
+		return newton && !newton->dead;
+	});
+	if (!moving) return capfrac::implicitStep(network, {}, scene->dt, solver);
+	return capfrac::coupledStep(network, skeleton(), scene->dt, solver);
 }
 
 void SinglePhaseFlowEngine::advanceFluids()

@@ -303,7 +303,8 @@ FlowStep coupledStep(FlowNetwork& network, const Skeleton& skeleton, double dt, 
 	assembly.addStorage(step.volume, dt);
 	for (const VolumeEntry& e : b) {
 		// An infinite mass leaves the prescribed velocity as it is.
-		const double dryVelocity = skeleton.velocity[e.freedom] + dt * skeleton.force[e.freedom] / skeleton.mass[e.freedom];
+		// The same mobility as in the matrix: else grains at rest, F_c + B^T p = 0, would seem to give way for ever.
+		const double dryVelocity = skeleton.velocity[e.freedom] + dt * (1 + skeleton.damping) * skeleton.force[e.freedom] / skeleton.mass[e.freedom];
 		assembly.addRight(e.pore, -e.value * dryVelocity);
 		step.volume[e.pore] += dt * e.value * dryVelocity;
 	}

@@ -89,7 +89,8 @@ std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const st
 ///
 /// L is the Laplacian of the conductances. All three matrices are symmetric and positive semidefinite; the
 /// fluid is a Chorin projection with compressibility and leak-off. Prescribed motions stay out of M^-1.
-/// Local damping multiplies accelerations by 1 -+ lambda; the matrix takes 1 + lambda, the safe side.
+/// Local damping multiplies accelerations by 1 -+ lambda; M^-1 is taken 1 + lambda times as large throughout, the
+/// safe side: in the matrix alone it would leave a bias in grains at rest.
 ///
 /// The volumes in the network are those at the beginning of the step and stay: the caller moves the grains
 /// with B^T p' in the same step and sets the new volumes. What they differ from `FlowStep::volume` becomes

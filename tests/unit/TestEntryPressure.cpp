@@ -12,7 +12,7 @@ namespace capfrac {
 
 namespace {
 
-	/// Columns of the table in an independent finite-element table, for radius and tension one, as
+	/// Columns of an independent finite-element table, for radius and tension one, as
 	/// printed there: four decimals of the radius, three of the pressures. Three of the MS-P values are not
 	/// the notes' own: these print 8.325, 4.908 and 2.843, where the balance of the gas in the picture, solved
 	/// by itself (quarterImbalance below), gives 8.32568, 4.90861 and 2.84240.
