@@ -17,7 +17,9 @@ FOLDER = Path(os.environ.get("CAPFRAC_VALIDATION_RUNS", ROOT / "build" / "valida
 SEEDS = (1, 2, 3, 4, 5)
 INLETS = (1, 3, 5, 9)
 STIFFNESSES = (1e7, 1e8, 1e9)
-STIFFNESS_SEEDS = SEEDS[:2]  # enough to see a trend; a minute and more each
+#: Enough to see a trend. At 1e9 N/m a run takes minutes, and seed 2 hangs together so loosely there that the walls do not bring
+#: it to 10 and 8 kPa within a million steps.
+STIFFNESS_SEEDS = {1e7: SEEDS[:2], 1e8: SEEDS[:2], 1e9: SEEDS[:1]}
 
 #: For studies of the pressure at which the sample opens: from well below, to the gas at the outlet, no fields.
 TO_BREAKTHROUGH = {"ramp.start": 60e3, "ramp.max": 300e3, "ramp.endAt": '"breakthrough"', "output.pressures": "[]", "output.fields": "false"}
@@ -34,7 +36,7 @@ def inletRuns():
 
 def stiffnessRuns():
     return {f"kn{stiffness:.0e}-seed{seed}": ("figure16", {**TO_BREAKTHROUGH, "grains.seed": seed, "grains.normalStiffness": stiffness})
-            for stiffness in STIFFNESSES for seed in STIFFNESS_SEEDS}
+            for stiffness in STIFFNESSES for seed in STIFFNESS_SEEDS[stiffness]}
 
 
 def execute(runs, workers=2):

@@ -206,7 +206,7 @@ def drawSensitivity(result, path):
     """Exponents of the macroscopic properties (rows of bars) with respect to each microscopic parameter."""
     parameters = list(result["exponent"])
     with newFigure((6.4, 3.4)) as figure:
-        axes = figure.add_axes([0.27, 0.15, 0.71, 0.75])
+        axes = figure.add_axes([0.33, 0.15, 0.65, 0.75])
         height = 0.8 / len(_NAMES)
         for number, (name, label) in enumerate(_NAMES.items()):
             values = [result["exponent"][parameter][name] for parameter in parameters]
