@@ -98,3 +98,18 @@ def test_grainSizeDoesNotMatter():
     found = example("11_grain_size").main(grainCount=40, stresses=(20e3, 50e3), strain=0.02)
     # A power of two apart: every number of one run is that of the other times a power of two, so the results are the same.
     assert all(share == 0 for share in found["spread"].values())
+
+
+def test_pressureDiffusion(tmp_path):
+    results = example("14_pressure_diffusion").main(str(tmp_path / "run"), grainCount=100, steps=100)
+    assert 5e-3 < results["kOverR2"] < 1.3e-2  # 9.05e-3 in large random packs
+    assert results["storageTimesBulkModulus"] == pytest.approx(results["porosity"], rel=0.1)
+    for picture in ("figure11", "figure12"):
+        assert (tmp_path / "run" / "pictures" / f"{picture}.png").stat().st_size > 5000
+
+
+def test_undrainedCompaction(tmp_path):
+    found = example("15_undrained_compaction").main(str(tmp_path), grainCount=40, strain=0.004)
+    for result in found.values():
+        assert 0.75 < result["biot"] < 1 and result["ledger"] < 1e-12
+        assert result["total"][-1] > result["dry"][-1] + 0.7 * result["pressure"][-1]

@@ -9,6 +9,8 @@
     biaxial       Young's modulus, Poisson's ratio, friction angle, cohesion
     tables        macroscopic properties against grain size and microscopic parameters
     contacts      the contact law on two grains (Equations 1 and 2)
+    flow          permeability, storage and diffusion of pressure (Table 1, Figures 11, 12)
+    undrained     compaction of a sealed sample, Biot coefficient (Figure 13)
     figures       pictures of all of them
     command       ``capfrac lab``
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from capfrac import keys, snapshot
 from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, contacts, figures, hydrate_ridge, parameters, settling, tables
+from capfrac.lab import biaxial, compaction, contacts, figures, flow, hydrate_ridge, parameters, settling, tables, undrained
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 from capfrac.lab.run import LabRun
 
@@ -21,6 +21,8 @@ TITLES = {
     "sizes": "macroscopic properties against grain size (Equation 5)",
     "sensitivity": "macroscopic properties against microscopic parameters",
     "contacts": "the contact law on two grains (Equations 1 and 2)",
+    "diffusion": "permeability, storage and the diffusion of pressure (Table 1, Figures 11 and 12)",
+    "undrained": "compaction of a sealed sample and its Biot coefficient (Figure 13)",
 }
 
 
@@ -153,8 +155,24 @@ def _contacts(sample, own, run, base):
     return {name: _withoutTable(one) for name, one in found.items()}
 
 
+def _diffusion(sample, own, run, base):
+    found = flow.diffusion(sample, run=run, **own)
+    run.table("rates", found["rates"])
+    run.picture("figure11", lambda path: figures.drawRates(found, path))
+    run.picture("figure12", lambda path: figures.drawProfiles(found, path))
+    return {key: value for key, value in found.items() if key not in ("rates", "profiles")}
+
+
+def _undrained(sample, own, run, base):
+    found = undrained.undrained(sample, run=run, **own)
+    columns = ("strain", "total", "dry", "pressure", "effective")
+    run.table("undrained", {f"{name} [{'-' if name == 'strain' else 'Pa'}]": found[name] for name in columns})
+    run.picture("figure13", lambda path: figures.drawUndrained(found, path))
+    return {key: value for key, value in found.items() if key not in columns}
+
+
 _TESTS = {"settle": _settle, "timestep": _timestep, "compact": _compact, "fit": _fit, "hydrate-ridge": _hydrateRidge, "path": _path, "biaxial": _biaxial,
-          "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts}
+          "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "diffusion": _diffusion, "undrained": _undrained}
 
 
 # --- the command ---------------------------------------------------------------------------------

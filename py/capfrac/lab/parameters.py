@@ -81,6 +81,16 @@ TESTS = {
     "sensitivity": _own("sensitivity", positive("", "factor", "-", 2.0, "Factor by which each micro parameter is raised and lowered."),
                         *(key for key in _BIAXIAL if key.name != "bondStrength"), positive("", "bondStrength", "Pa", 100e3, "Strength of the bonds of the reference sample.")),
     "contacts": GRAINS[8:12],
+    "diffusion": _own("diffusion", positive("", "stress", "Pa", 100e3, "Isotropic stress of the preparation."), positive("", "pressure", "Pa", 1e3, "Pressure set along the top."),
+                      positive("", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f."), positive("", "viscosity", "Pa s", 1e-3, "Viscosity of the fluid."),
+                      positive("", "conductanceFactor", "-", 1.0, "Factor of all conductances; 0.32 reproduces the paper's permeability, a fit."),
+                      Key("", "timeIntegration", str, "-", "implicit", "Scheme in time.", choices=("implicit", "explicit")),
+                      Key("", "steps", int, "-", 400, "Steps of time, longer as time goes on.", low=50)),
+    "undrained": _own("undrained", positive("", "stress", "Pa", 100e3, "Isotropic stress at which the sample is sealed."),
+                      Key("", "strain", float, "-", 0.01, "Vertical strain at the end.", low=0, openLow=True, high=0.2),
+                      positive("", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f; that of water is 2.2e9."), positive("", "viscosity", "Pa s", 1e-3, "Viscosity of the fluid."),
+                      notNegative("", "bondStrength", "Pa", 1e6, "Strength of the bonds, sigma_c = tau_c of Eq. 5; 0: no bonds."),
+                      Key("", "inertialNumber", float, "-", 5e-5, "Inertial number of the test.", low=0, openLow=True, high=1e-2)),
 }
 
 
