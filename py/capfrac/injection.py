@@ -21,7 +21,7 @@ import numpy as np
 from capfrac import export, figures, mode, sediment, snapshot
 from capfrac.case import MAX_SIZE_RATIO, readCase, resolveCase
 from capfrac.errors import CapfracError, CaseError, RunFolderError, SceneError
-from capfrac.runfolder import RunFolder
+from capfrac.runfolder import RunFolder, holdingInterrupts
 
 #: Time steps between looks at the run [-]; short enough that Ctrl-C answers at once.
 CHUNK = 50
@@ -179,8 +179,9 @@ class Run:
         checkpoints are made after fixed numbers of steps and the run itself goes on from them, an interrupted run ends
         with the same bits as one that was not.
         """
-        self.folder.saveCheckpoint()
-        self._load()
+        with holdingInterrupts():
+            self.folder.saveCheckpoint()
+            self._load()
         self.folder.writeLogs(self.gas)
         self.spent += time.time() - self.clock
         self.clock = time.time()

@@ -16,6 +16,9 @@ import json
 import math
 import os
 import re
+import signal
+import threading
+from contextlib import contextmanager
 from pathlib import Path
 
 from capfrac.errors import RunFolderError
@@ -40,6 +43,25 @@ def caseKey(case):
     """A short text that is the same for cases with the same parameters; titles and places do not count."""
     parameters = {section: entries for section, entries in case.items() if section not in ("case", "output")}
     return hashlib.sha256(json.dumps(_plain(parameters), sort_keys=True).encode()).hexdigest()[:16]
+
+
+@contextmanager
+def holdingInterrupts():
+    """Let Ctrl-C wait until the block is left: saving and loading a scene must be done whole.
+
+    (YADE runs Python commands while it loads, and turns an interruption there into an error of its own.)
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    waiting = []
+    before = signal.signal(signal.SIGINT, lambda *arguments: waiting.append(arguments))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+    if waiting and callable(before):
+        before(*waiting[0])
 
 
 class RunFolder:

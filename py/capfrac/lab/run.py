@@ -21,7 +21,7 @@ run is not finished ``state.json`` with the scene of the last checkpoint in ``sc
 import json
 
 from capfrac.errors import RunFolderError
-from capfrac.runfolder import RunFolder
+from capfrac.runfolder import RunFolder, holdingInterrupts
 
 #: Rows of a test between checkpoints; what an interruption may cost.
 CHECKPOINT_TICKS = 20
@@ -145,6 +145,10 @@ class LabRun:
 
     def checkpoint(self, scene=True):
         """Save now: the scene first, under a new name, then the state that names it, then the old scene goes."""
+        with holdingInterrupts():
+            self._save(scene)
+
+    def _save(self, scene):
         from yade import O
 
         self._ticks = 0
