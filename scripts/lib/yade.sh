@@ -76,7 +76,7 @@ build_yade() {
 		return 0
 	fi
 	say "building a minimal YADE $YADE_VERSION once, into $prefix"
-	say "this takes about 10 minutes on 2 cores and resumes where it stopped if interrupted"
+	say "this takes about 13 minutes on 2 cores and resumes where it stopped if interrupted"
 	mkdir -p "$build"
 	# A system PATH only: YADE tries every python3.N it finds, and a pyenv shim among them stops it.
 	PATH=$SYSTEM_PATH cmake -S "$YADE_SOURCE_DIR" -B "$build" -G Ninja "${YADE_BUILD_OPTIONS[@]}" -DCMAKE_PROJECT_INCLUDE="$YADE_MINIMAL" \
