@@ -110,7 +110,7 @@ void SinglePhaseFlowEngine::groupPores(const std::vector<double>& voids)
 		poreCentre[p] = (1 / poreVolume[p]) * poreCentre[p];
 }
 
-capfrac::FlowNetwork SinglePhaseFlowEngine::flowNetwork(const std::vector<double>&) const
+capfrac::FlowNetwork SinglePhaseFlowEngine::flowNetwork() const
 {
 	capfrac::FlowNetwork network;
 	network.bulkModulus = bulkModulus;
@@ -239,7 +239,7 @@ void SinglePhaseFlowEngine::advanceFluids()
 	const auto voids = currentVoids();
 	groupPores(voids);
 	capfrac::FlowStep done;
-	auto              network = flowNetwork(voids);
+	auto              network = flowNetwork();
 	try {
 		done = step(network);
 	} catch (const std::exception& e) {

@@ -34,7 +34,7 @@ private:
 
 	void                 guardAttributes();
 	void                 groupPores(const std::vector<double>& voids);
-	capfrac::FlowNetwork flowNetwork(const std::vector<double>& voids) const;
+	capfrac::FlowNetwork flowNetwork() const;
 	void                 addThroats(capfrac::FlowNetwork& network) const;
 	void                 addBoundaries(capfrac::FlowNetwork& network) const;
 	void                 fixPressure(capfrac::FlowNetwork& network, int pore, double pressure, const std::string& owner) const;

@@ -44,9 +44,8 @@ py::dict SinglePhaseFlowEngine::pyInflow()
 Real SinglePhaseFlowEngine::pyTimeStepLimit()
 {
 	pyPrepare();
-	const auto voids = currentVoids();
-	groupPores(voids);
-	return capfrac::explicitTimeStepLimit(flowNetwork(voids));
+	groupPores(currentVoids());
+	return capfrac::explicitTimeStepLimit(flowNetwork());
 }
 
 void SinglePhaseFlowEngine::pySetCellPressures(const std::vector<Real>& pressures)

@@ -87,7 +87,7 @@ void WallServoEngine::action()
 	for (const auto& engine : scene->engines) // a fluid that cannot leave at once resists, too
 		if (const auto* network = dynamic_cast<const PoreNetworkEngine*>(engine.get()); network && !network->dead)
 			for (int w = 0; w < capfrac::nWalls; ++w)
-				stiffness[w] += network->wallStiffness(w);
+				if (task(w) == Task::stress) stiffness[w] += network->wallStiffness(w);
 	for (int w = 0; w < capfrac::nWalls; ++w) {
 		auto&      state   = *(*scene->bodies)[reader.wallIds[w]]->state;
 		const Task todo    = task(w);

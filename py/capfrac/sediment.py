@@ -122,6 +122,13 @@ def buildScene(sample, x, y, radii, box):
     O.dt = TIME_STEP_SHARE * math.sqrt(smallestMass / sample.normalStiffness)
 
 
+def placeSample(sample):
+    """Draw the sample's grains, place them loosely at random in a tall box, and fill the scene with them (:func:`buildScene`)."""
+    radii = drawRadii(sample)
+    x, y, width, height = placeGrains(sample, radii)
+    buildScene(sample, x, y, radii, (0, width, 0, height))
+
+
 def engine(label):
     """The engine or functor of the current scene with that label; :class:`SceneError` where there is none."""
     from yade import O
@@ -306,9 +313,7 @@ def makeSample(sample, stressV, stressH, packing=None, progress=None):
     A packing is put into the smallest box that holds it and goes straight to :func:`compress`.
     """
     if packing is None:
-        radii = drawRadii(sample)
-        x, y, width, height = placeGrains(sample, radii)
-        buildScene(sample, x, y, radii, (0, width, 0, height))
+        placeSample(sample)
         settle(sample, progress=progress)
     else:
         x, y, radii = packing

@@ -13,7 +13,7 @@ from yade import O
 
 from yade.wrapper import SinglePhaseFlowEngine
 
-from capfrac import injection, packing, sediment
+from capfrac import injection, sediment
 
 STEPS, ROUNDS = 300, 5
 
@@ -28,9 +28,7 @@ def makeSample(grainCount):
     """A bonded sample of fine grains, at rest but for small motions, in the scene."""
     O.reset()
     sample = sediment.Sediment(grainCount=grainCount, rMin=1e-6, rMax=2e-6, seed=1)
-    radii = packing.drawRadii(sample)
-    x, y, width, height = packing.placeGrains(sample, radii)
-    sediment.buildScene(sample, x, y, radii, (0, width, 0, height))
+    sediment.placeSample(sample)
     sediment.settle(sample, unbalanced=0.05)
     sediment.compress(sample, 10e3, 8e3, tolerance=0.05, unbalanced=0.01)
     sediment.bond(capillaryStrength=0.5)

@@ -13,7 +13,6 @@ import numpy as np
 from capfrac import sediment, snapshot
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
-from capfrac.packing import drawRadii, placeGrains
 
 #: Share of the grains with a contact at which the second stage, settling and rearrangement, begins [-].
 SETTLING_SHARE = 0.5
@@ -44,13 +43,11 @@ def _place(sample, gravity, safety):
 
     if gravity is not None and not (math.isfinite(gravity) and gravity > 0):
         raise CaseError(f"gravity = {gravity} m/s^2, allowed: > 0")
-    radii = drawRadii(sample)
-    x, y, width, height = placeGrains(sample, radii)
-    sediment.buildScene(sample, x, y, radii, (0, width, 0, height))
+    sediment.placeSample(sample)
     sediment.startSettling(sample, gravity)
     # A grain that falls free has no period. Its first contact gives it that of the smallest grain on one contact,
     # and the step must not be longer when it comes: so that is the time step of free fall.
-    single = math.sqrt(2) * safety * math.sqrt(math.pi * float(radii.min()) ** 2 * sample.density / sample.normalStiffness)
+    single = math.sqrt(2) * safety * math.sqrt(math.pi * min(body.shape.radius for body in sediment.grainBodies()) ** 2 * sample.density / sample.normalStiffness)
     engines = list(O.engines)
     engines.insert(len(engines) - 1, GlobalStiffnessTimeStepper(active=True, timeStepUpdateInterval=1, timestepSafetyCoefficient=safety,
                                                                  defaultDt=single, maxDt=single, label="timeStepper"))

@@ -19,7 +19,6 @@ from capfrac.errors import CaseError
 from capfrac.lab import biaxial
 from capfrac.lab.box import INERTIAL_NUMBER
 from capfrac.lab.run import LabRun
-from capfrac.packing import drawRadii, placeGrains
 
 #: Smallest radii from 1.2 um to 1 cm, powers of two apart [m].
 RADII = tuple(1e-2 / 2**n for n in (13, 10, 7, 3, 0))
@@ -46,9 +45,7 @@ def settledPacking(sample, run, rMin=None):
     scale = 1.0 if rMin is None else rMin / sample.rMin
 
     def settle():
-        radii = drawRadii(sample)
-        x, y, width, height = placeGrains(sample, radii)
-        sediment.buildScene(sample, x, y, radii, (0, width, 0, height))
+        sediment.placeSample(sample)
         sediment.settle(sample)
         return [[float(v) for v in column] for column in zip(*((*tuple(body.state.pos)[:2], body.shape.radius) for body in sediment.grainBodies()))]
 
