@@ -17,7 +17,7 @@ void PoreNetworkEngine::action()
 	prepare();
 	update();
 	advanceFluids();
-	reader.addForces(*scene, capfrac::fluidForces(mesh, cellPressures(), reader.grains, reader.box), thickness);
+	reader.addForces(*scene, forcesOfFluids(), thickness);
 	finishStep();
 }
 
@@ -130,7 +130,8 @@ bool PoreNetworkEngine::movedFar() const
 	const Real limit = remeshDisplacement * smallestRadius(), limit2 = limit * limit;
 	for (std::size_t i = 0; i < reader.grains.size(); ++i) {
 		const capfrac::Vec2 step = reader.grains[i].centre - checkedGrains[i].centre;
-		if (!(capfrac::dot(step, step) <= limit2)) return true; // NaN counts as far: the check will name it
+		// NaN counts as far: the check will name it. Radii change where the fluid compresses grains.
+		if (!(capfrac::dot(step, step) <= limit2 && math::abs(reader.grains[i].radius - checkedGrains[i].radius) <= limit)) return true;
 	}
 	for (int w = 0; w < capfrac::nWalls; ++w)
 		if (!(math::abs(reader.box.distance(w, {}) - checkedBox.distance(w, {})) <= limit)) return true;
@@ -220,7 +221,7 @@ void PoreNetworkEngine::preSave(PoreNetworkEngine&)
 	savedPressures = fixedPressures;
 	savedOpen.assign(openEdges.begin(), openEdges.end());
 	for (const auto& g : checkedGrains)
-		savedChecked.insert(savedChecked.end(), { g.centre.x, g.centre.y });
+		savedChecked.insert(savedChecked.end(), { g.centre.x, g.centre.y, g.radius });
 	savedChecked.insert(savedChecked.end(), { checkedBox.left, checkedBox.right, checkedBox.bottom, checkedBox.top });
 }
 
@@ -247,8 +248,8 @@ void PoreNetworkEngine::restore()
 	openEdges.assign(savedOpen.begin(), savedOpen.end());
 	checkedGrains.resize(n);
 	for (std::size_t i = 0; i < n; ++i)
-		checkedGrains[i].centre = { savedChecked[2 * i], savedChecked[2 * i + 1] };
-	checkedBox = { savedChecked[2 * n], savedChecked[2 * n + 1], savedChecked[2 * n + 2], savedChecked[2 * n + 3] };
+		checkedGrains[i] = { { savedChecked[3 * i], savedChecked[3 * i + 1] }, savedChecked[3 * i + 2] };
+	checkedBox = { savedChecked[3 * n], savedChecked[3 * n + 1], savedChecked[3 * n + 2], savedChecked[3 * n + 3] };
 	domains    = {};
 	savedIds.clear(), savedCells.clear();
 }

@@ -38,6 +38,8 @@ public:
 protected:
 	/// Called once per step between the update of the network and the forces; the base has fixed pressures.
 	virtual void advanceFluids() {}
+	/// Forces of the fluids per thickness [N/m], under cellPressures().
+	virtual capfrac::FluidForces forcesOfFluids() const { return capfrac::fluidForces(mesh, cellPressures(), reader.grains, reader.box); }
 	/// Called last in the step, when the forces of the fluids are on the grains.
 	virtual void finishStep() {}
 	/// Called when the network has been built for the first time.

@@ -2,7 +2,7 @@
 
 #include "PoreNetworkEngine.hpp"
 
-#include "../flow/TimeIntegration.hpp"
+#include "../flow/Coupling.hpp"
 #include "../fluids/Conductance.hpp"
 
 namespace yade {
@@ -28,6 +28,8 @@ protected:
 	void startFluids() override;
 	void checkAttributes() const override;
 	bool drained() const override { return false; }
+	/// Of the very matrix that the step foresaw the volumes with: what the grains gain in work the fluid loses, to round-off.
+	capfrac::FluidForces forcesOfFluids() const override;
 
 private:
 	enum class Scheme { undrainedStable, implicit, explicitEuler };
@@ -39,6 +41,10 @@ private:
 	void                 addBoundaries(capfrac::FlowNetwork& network) const;
 	void                 fixPressure(capfrac::FlowNetwork& network, int pore, double pressure, const std::string& owner) const;
 	capfrac::Skeleton    skeleton() const;
+	std::string          placeOf(int pore) const;
+	void                 checkMotion(const Body& body) const;
+	capfrac::GrainCompression compression() const;
+	void                 compressGrains(const capfrac::GrainCompression& compression, const std::vector<double>& pressure);
 	capfrac::FlowStep    step(capfrac::FlowNetwork& network);
 	void                 bookInflow(const capfrac::FlowNetwork& network, const capfrac::FlowStep& done);
 
@@ -50,6 +56,7 @@ private:
 	std::vector<capfrac::Vec2> poreCentre;
 	std::vector<double>       porePressure; ///< of the pores of the last step
 	std::vector<double>       poreVolume;
+	capfrac::VolumeGradients  gradients; ///< of this step
 	capfrac::Accepted         accepted;
 
 public:
@@ -74,7 +81,10 @@ round-off through contacts that open and close and through remeshing. Walls are 
 		((std::vector<Vector3r>,pointFluxes,,Attr::triggerPostLoad,"Inflow into the pores that hold points: (x [m], y [m], inflow [m³/s])."))
 		((Real,fluidDensity,0,Attr::triggerPostLoad,"Density of the fluid [kg/m³], >= 0; with :yref:`gravity<SinglePhaseFlowEngine.gravity>` the fluid has weight: hydrostatic pressure, and buoyancy of the grains."))
 		((Vector2r,gravity,Vector2r::Zero(),Attr::triggerPostLoad,"Gravity on the fluid [m/s²]."))
+		((Real,grainBulkModulus,std::numeric_limits<Real>::infinity(),Attr::triggerPostLoad,"Bulk modulus of the grains $K_s$ [Pa], > 0; infinity for rigid grains. The pressure round a grain changes its radius, $r=r_0\\,(1-p/(3K_s))$ (Eq. 10), $r_0$ being its radius at the initial :yref:`waterPressure<PoreNetworkEngine.waterPressure>` and p counted from that."))
 		((Real,closedPore,1e-3,Attr::triggerPostLoad,"A pore smaller than this share of the smallest grain's area is joined to its neighbour across the widest throat: a pore that grains close pushes its fluid there [-], > 0."))
+		((std::vector<Real>,referenceRadii,,(Attr::hidden|Attr::readonly),"Radii at the start [m]."))
+		((Real,referencePressure,0,(Attr::hidden|Attr::readonly),"Pressure at the start [Pa]."))
 		((Real,massDefect,0,Attr::readonly,"Sum of in - out - stored over all steps [m³] |yupdate|; round-off."))
 		((std::vector<Real>,wallInflow,std::vector<Real>(4,0),Attr::readonly,"Flow into the sample through the left, right, bottom and top wall in the last step [m³/s] |yupdate|."))
 		((int,solverIterations,0,Attr::readonly,"Iterations of the linear solver in the last step [-] |yupdate|."))

@@ -11,17 +11,17 @@ namespace capfrac {
 
 namespace {
 
-	[[noreturn]] void refuse(const std::string& what, double value, const char* allowed)
+	[[noreturn]] void refuse(const std::string& what, double value, const char* allowed, int pore = -1)
 	{
 		std::ostringstream text;
 		text.precision(10);
 		text << what << " = " << value << ", allowed: " << allowed;
-		throw FlowError(text.str());
+		throw FlowError(text.str(), pore);
 	}
 
-	void checkFinite(const std::string& what, double value)
+	void checkFinite(const std::string& what, double value, int pore)
 	{
-		if (!std::isfinite(value)) refuse(what, value, "a finite number");
+		if (!std::isfinite(value)) refuse(what, value, "a finite number", pore);
 	}
 
 	void checkPore(const FlowNetwork& network, std::size_t i)
@@ -32,10 +32,10 @@ namespace {
 		    && std::isfinite(pore.fixedPressure.value_or(0)))
 			return;
 		const std::string name = "pore " + std::to_string(i) + ": ";
-		if (!(pore.volume > 0 && std::isfinite(pore.volume))) refuse(name + "volume [m^3]", pore.volume, "> 0");
-		checkFinite(name + "mass [m^3]", pore.mass);
-		checkFinite(name + "source [m^3/s]", pore.source);
-		checkFinite(name + "fixed pressure [Pa]", pore.fixedPressure.value_or(0));
+		if (!(pore.volume > 0 && std::isfinite(pore.volume))) refuse(name + "volume [m^3]", pore.volume, "> 0", static_cast<int>(i));
+		checkFinite(name + "mass [m^3]", pore.mass, static_cast<int>(i));
+		checkFinite(name + "source [m^3/s]", pore.source, static_cast<int>(i));
+		checkFinite(name + "fixed pressure [Pa]", pore.fixedPressure.value_or(0), static_cast<int>(i));
 	}
 
 	void checkConductance(const char* what, std::size_t index, double value)
@@ -143,7 +143,8 @@ void checkGrounded(const FlowNetwork& network, const FlowClusters& clusters, con
 		                "fluid a finite bulk modulus");
 	const auto size = std::count(clusters.ofPore.begin(), clusters.ofPore.end(), cluster);
 	throw FlowError("pore " + std::to_string(clusters.first[cluster]) + ": its cluster (pores: " + std::to_string(size)
-	                + ") is cut off from every boundary with a pressure, which leaves the pressure of an incompressible fluid undetermined");
+	                + ") is cut off from every boundary with a pressure, which leaves the pressure of an incompressible fluid undetermined",
+	                clusters.first[cluster]);
 }
 
 } // namespace capfrac

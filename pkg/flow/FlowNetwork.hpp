@@ -14,6 +14,7 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace capfrac {
@@ -49,7 +50,12 @@ struct FlowNetwork {
 
 /// A flow problem that cannot be solved as it stands; the message names the pore or throat and the value.
 struct FlowError : std::invalid_argument {
-	using std::invalid_argument::invalid_argument;
+	explicit FlowError(const std::string& finding, int pore_ = -1)
+	        : std::invalid_argument(finding)
+	        , pore(pore_)
+	{
+	}
+	int pore; ///< -1 where no single pore is at fault
 };
 
 /// Checks a fluid: bulk modulus [Pa] > 0, infinity allowed; viscosity [Pa s] > 0. Throws FlowError.

@@ -61,19 +61,23 @@ namespace {
 		WallGradient&  ofWall(int cell, int wall) { return b.walls[entryOf(cell, mesh.nGrains + wall)]; }
 	};
 
-	/// What an edge does to the cell on one of its sides; `side` is 1 on the left, -1 on the right. The
-	/// terms are those of fluidForces(), for unit pressure in this cell and none in the other.
-	void addEdge(Rows& rows, const Edge& e, int cell, double side, const std::vector<Disk>& grains, const Box& box)
+	/// What an edge does to the cells on its sides. The terms are those of fluidForces(), for unit pressure in
+	/// one cell and none in the other; they differ in sign along the edge only.
+	void addEdge(Rows& rows, const Edge& e, const std::vector<Disk>& grains, const Box& box, Radii radii)
 	{
-		if (cell < 0) return;
-		const Disk& a = grains[e.a];
+		const std::array<std::pair<int, double>, 2> sides { { { e.left, 1 }, { e.right, -1 } } };
+		const Disk&                                 a = grains[e.a];
 		if (rows.mesh.isWall(e.b)) {
 			const int    wall     = rows.mesh.wallOf(e.b);
 			const Vec2   normal   = Box::outward(wall);
 			const double distance = box.distance(wall, a.centre), halfChord = 0.5 * segmentChord(a.radius, distance);
-			rows.ofGrain(cell, e.a).centre += halfChord * normal - side * distance * turned(normal);
-			rows.ofGrain(cell, e.a).radius += 0.5 * arcBeyond(a.radius, distance);
-			rows.ofWall(cell, wall).outward -= halfChord;
+			const double arc      = radii == Radii::vary ? arcBeyond(a.radius, distance) : 0;
+			for (const auto& [cell, side] : sides) {
+				if (cell < 0) continue;
+				rows.ofGrain(cell, e.a).centre += halfChord * normal - side * distance * turned(normal);
+				rows.ofGrain(cell, e.a).radius += 0.5 * arc;
+				rows.ofWall(cell, wall).outward -= halfChord;
+			}
 			return;
 		}
 		const Disk&  b         = grains[e.b];
@@ -82,10 +86,15 @@ namespace {
 		const Vec2   normal    = (1 / length) * edge;
 		const double skew      = (b.radius - a.radius) * (b.radius + a.radius) / (2 * length);
 		const double halfChord = 0.5 * lensChord(a.radius, b.radius, length);
-		rows.ofGrain(cell, e.a).centre += halfChord * normal - side * (0.5 * length - skew) * turned(normal);
-		rows.ofGrain(cell, e.b).centre -= halfChord * normal + side * (0.5 * length + skew) * turned(normal);
-		rows.ofGrain(cell, e.a).radius += 0.5 * arcWithin(a.radius, b.radius, length);
-		rows.ofGrain(cell, e.b).radius += 0.5 * arcWithin(b.radius, a.radius, length);
+		const bool   vary      = radii == Radii::vary;
+		const double arcA = vary ? arcWithin(a.radius, b.radius, length) : 0, arcB = vary ? arcWithin(b.radius, a.radius, length) : 0;
+		for (const auto& [cell, side] : sides) {
+			if (cell < 0) continue;
+			rows.ofGrain(cell, e.a).centre += halfChord * normal - side * (0.5 * length - skew) * turned(normal);
+			rows.ofGrain(cell, e.b).centre -= halfChord * normal + side * (0.5 * length + skew) * turned(normal);
+			rows.ofGrain(cell, e.a).radius += 0.5 * arcA;
+			rows.ofGrain(cell, e.b).radius += 0.5 * arcB;
+		}
 	}
 
 	/// Where a vertex lies as seen along a wall: only that coordinate of the result counts.
@@ -101,7 +110,7 @@ namespace {
 	}
 
 	/// What the corners of a cell do: the sector of a grain that grows, the span of a wall that moves.
-	void addCorner(Rows& rows, int cell, int k, const std::vector<Disk>& grains, const Box& box)
+	void addCorner(Rows& rows, int cell, int k, const std::vector<Disk>& grains, const Box& box, Radii radii)
 	{
 		const Triangulation& mesh = rows.mesh;
 		const auto&          v    = mesh.cells[cell].vertex;
@@ -112,22 +121,21 @@ namespace {
 			rows.ofWall(cell, mesh.wallOf(at)).outward += dot(span, along);
 			return;
 		}
+		if (radii == Radii::fixed) return;
 		const Vec2 from = towards(mesh, at, next, grains), to = towards(mesh, at, previous, grains);
 		rows.ofGrain(cell, at).radius -= grains[at].radius * std::atan2(cross(from, to), dot(from, to));
 	}
 
 } // namespace
 
-VolumeGradients volumeGradients(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box)
+VolumeGradients volumeGradients(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box, Radii radii)
 {
 	Rows rows(mesh);
-	for (const Edge& e : mesh.edges) {
-		addEdge(rows, e, e.left, 1, grains, box);
-		addEdge(rows, e, e.right, -1, grains, box);
-	}
+	for (const Edge& e : mesh.edges)
+		addEdge(rows, e, grains, box, radii);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
 		for (int k = 0; k < 3; ++k)
-			addCorner(rows, static_cast<int>(c), k, grains, box);
+			addCorner(rows, static_cast<int>(c), k, grains, box, radii);
 	return std::move(rows.b);
 }
 

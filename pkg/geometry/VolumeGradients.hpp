@@ -14,7 +14,7 @@ namespace capfrac {
 struct GrainGradient {
 	int    cell = -1, grain = -1;
 	Vec2   centre;     ///< dV/d(centre) [m]
-	double radius = 0; ///< dV/d(radius) [m], centres held
+	double radius = 0; ///< dV/d(radius) [m], centres held; 0 where it was not asked for
 };
 
 /// Row `cell`, column of one wall.
@@ -29,9 +29,12 @@ struct VolumeGradients {
 	std::vector<WallGradient>  walls;  ///< sorted by cell, then wall
 };
 
+/// What volumeGradients() computes: rigid grains need no derivatives by radii, half of its cost.
+enum class Radii { vary, fixed };
+
 /// B for all cells. Where a pair just touches, the derivative of the overlap is the one from outside, 0.
 /// Throws nothing that triangulate() has not refused before.
-VolumeGradients volumeGradients(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box);
+VolumeGradients volumeGradients(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box, Radii radii = Radii::vary);
 
 /// B^T p [N/m]: fluidForces() to round-off. `pressure` [Pa] of the cells.
 FluidForces fluidForces(const VolumeGradients& gradients, const std::vector<double>& pressure, std::size_t nGrains);
