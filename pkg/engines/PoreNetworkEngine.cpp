@@ -1,8 +1,11 @@
 #include "PoreNetworkEngine.hpp"
 #include "Attributes.hpp"
 
+#include "../geometry/Flips.hpp"
+
 #include <core/Omega.hpp>
 #include <pkg/common/NormShearPhys.hpp>
+#include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 #include <algorithm>
@@ -36,7 +39,7 @@ void PoreNetworkEngine::checkAttributes() const
 void PoreNetworkEngine::guardAttributes()
 {
 	accepted.guard(
-	        std::tie(poreMode, mergeTolerance, mergeHysteresis, remeshDisplacement, maxSizeRatio, thickness, waterPressure),
+	        std::tie(poreMode, mergeTolerance, mergeHysteresis, remeshDisplacement, localFlips, maxSizeRatio, thickness, waterPressure),
 	        [this] { PoreNetworkEngine::checkAttributes(); });
 }
 
@@ -91,8 +94,17 @@ void PoreNetworkEngine::checkSizes(const SceneReader& from) const
 	throw std::runtime_error(text.str());
 }
 
+bool PoreNetworkEngine::grainsMove() const
+{
+	return std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& engine) {
+		const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get());
+		return newton && !newton->dead;
+	});
+}
+
 void PoreNetworkEngine::checkTimeStep() const
 {
+	if (!grainsMove()) return;
 	// A mode that moves one grain alone has the frequency sqrt(K/m), K = sum of its contacts' stiffness in
 	// that direction; the true highest frequency is no lower. Beyond dt = 2/sqrt(K/m) leap-frog must diverge.
 	std::vector<Vector3r> stiffness(scene->bodies->size(), Vector3r::Zero());
@@ -154,7 +166,7 @@ void PoreNetworkEngine::update()
 	namingBodies(reader, [&] { reader.read(*scene); });
 	if (movedFar()) {
 		namingBodies(reader, [&] { capfrac::checkGrains(reader.grains, reader.box); });
-		if (!capfrac::isRegular(mesh, reader.grains, reader.box)) remesh();
+		remesh();
 		checkedGrains = reader.grains;
 		checkedBox    = reader.box;
 	}
@@ -163,16 +175,24 @@ void PoreNetworkEngine::update()
 
 void PoreNetworkEngine::remesh()
 {
+	auto after = mesh;
+	auto flips = localFlips ? capfrac::flipToRegular(after, reader.grains, reader.box) : capfrac::Flips {};
+	if (localFlips ? flips.done && flips.count == 0 : capfrac::isRegular(mesh, reader.grains, reader.box)) return;
+	if (!flips.done) {
+		after = namingBodies(reader, [&] { return capfrac::triangulate(reader.grains, reader.box); });
+		++nRebuilds;
+	}
 	syncContents();
-	auto       after = namingBodies(reader, [&] { return capfrac::triangulate(reader.grains, reader.box); });
 	const auto voids = capfrac::voidAreas(after, reader.grains, reader.box);
 	contents  = capfrac::carryOver(mesh, contents, after, voids);
 	openEdges = capfrac::carryOverEdges(mesh, openEdges, after, capfrac::freshEdge);
-	mesh      = std::move(after);
+	std::swap(mesh, after);
+	followRemesh(after);
 	nCells    = static_cast<int>(mesh.cells.size());
 	fixedPressures.clear();
 	domains = {};
 	++nRemeshes;
+	nFlips += flips.count;
 }
 
 void PoreNetworkEngine::updateGaps()

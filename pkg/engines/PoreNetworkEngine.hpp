@@ -42,6 +42,8 @@ protected:
 	virtual capfrac::FluidForces forcesOfFluids() const { return capfrac::fluidForces(mesh, cellPressures(), reader.grains, reader.box); }
 	/// Called last in the step, when the forces of the fluids are on the grains.
 	virtual void finishStep() {}
+	/// Called when the triangulation has changed, with the one before; contents and flags have been carried over.
+	virtual void followRemesh(const capfrac::Triangulation&) {}
 	/// Called when the network has been built for the first time.
 	virtual void startFluids() {}
 	/// Entry pressure of an edge for the reports [Pa]; NaN where the engine has none.
@@ -55,6 +57,8 @@ protected:
 	virtual bool drained() const { return true; }
 	/// Partition of the cells anew, after phases or open edges changed.
 	void findDomains();
+	/// Whether an integrator moves the grains; without one they stand still, whatever their forces and velocities.
+	bool grainsMove() const;
 	bool prepared() const { return !mesh.cells.empty(); }
 	Real smallestRadius() const;
 
@@ -115,12 +119,15 @@ or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressure
 		((Real,mergeTolerance,1e-3,Attr::triggerPostLoad,"Gap beyond which a contact is open and joins the cells on its sides, in units of the smallest radius [-], >= 0."))
 		((Real,mergeHysteresis,0.5,Attr::triggerPostLoad,"An open contact closes again below this fraction of :yref:`mergeTolerance<PoreNetworkEngine.mergeTolerance>` [-], in [0, 1]."))
 		((Real,remeshDisplacement,1e-3,Attr::triggerPostLoad,"The triangulation is checked, and mended where needed, when a grain or wall has moved this far since the last check, in units of the smallest radius [-], >= 0. Volumes and forces are exact for any value; only which grains count as neighbours may lag."))
+		((bool,localFlips,true,Attr::triggerPostLoad,"Mend the triangulation by flips of the edges that are wrong; else, and where flips do not get there, it is made anew, with the same result [-]."))
 		((Real,maxSizeRatio,10,Attr::triggerPostLoad,"Largest ratio of grain radii that is accepted [-], >= 1. The domains and entry pressures of this model are meant for narrow distributions."))
 		((Real,thickness,1,Attr::triggerPostLoad,"Thickness $w$ of the assembly in the third dimension [m], > 0."))
 		((Real,waterPressure,0,Attr::triggerPostLoad,"Pressure of the (drained) water [Pa]. Stresses on the walls are total stresses; with 0 they are effective stresses of the water-filled sample."))
 		((int,nCells,0,Attr::readonly,"Number of cells |yupdate| [-]."))
 		((int,nDomains,0,Attr::readonly,"Number of domains |yupdate| [-]."))
 		((int,nRemeshes,0,Attr::readonly,"How often the triangulation had to change |yupdate| [-]."))
+		((int,nFlips,0,Attr::readonly,"Edges flipped so far |yupdate| [-]."))
+		((int,nRebuilds,0,Attr::readonly,"How often the triangulation was made anew since the first time |yupdate| [-]."))
 		((Real,gasIn,0,Attr::readonly,"Gas that entered the sample through the inlet, less what left, since the start [m³] |yupdate|."))
 		((Real,waterIn,0,Attr::readonly,"Water that entered the sample, less what left, since the start (negative in drainage) [m³] |yupdate|."))
 		((Real,initialVoid,0,Attr::readonly,"Void volume at the start, all water [m³] |yupdate|."))

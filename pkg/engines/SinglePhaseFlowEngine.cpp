@@ -1,4 +1,5 @@
 #include "SinglePhaseFlowEngine.hpp"
+#include "WallServoEngine.hpp"
 #include "Walls.hpp"
 
 #include <pkg/common/Sphere.hpp>
@@ -61,10 +62,30 @@ void SinglePhaseFlowEngine::startFluids()
 		water = capfrac::massAt(waterPressure, water, bulkModulus);
 	initialWater = thickness * contents.totalWater();
 	poreOfCell.clear();
+	cellPressure.clear();
 	referencePressure = waterPressure;
 	referenceRadii.clear();
 	for (const auto& grain : reader.grains)
 		referenceRadii.push_back(grain.radius);
+}
+
+/// For reports until the next step finds pressures anew: cells that are new have that of a neighbour that is not.
+void SinglePhaseFlowEngine::followRemesh(const capfrac::Triangulation& before)
+{
+	poreOfCell.clear();
+	if (cellPressure.size() != before.cells.size()) return;
+	std::vector<Real> pressure(mesh.cells.size(), NaN);
+	for (std::size_t n = 0, o = 0; n < mesh.cells.size(); ++n) { // both are sorted by vertex
+		while (o < before.cells.size() && before.cells[o].vertex < mesh.cells[n].vertex)
+			++o;
+		if (o < before.cells.size() && before.cells[o].vertex == mesh.cells[n].vertex) pressure[n] = cellPressure[o++];
+	}
+	cellPressure = pressure;
+	for (std::size_t n = 0; n < mesh.cells.size(); ++n)
+		for (int k = 0; k < 3 && math::isnan(cellPressure[n]); ++k)
+			if (const int next = mesh.cells[n].neighbour[k]; next >= 0) cellPressure[n] = pressure[next];
+	for (auto& p : cellPressure)
+		if (math::isnan(p)) p = waterPressure;
 }
 
 // --- the step -------------------------------------------------------------------------------------
@@ -93,12 +114,32 @@ capfrac::Skeleton SinglePhaseFlowEngine::skeleton() const
 			skeleton.force[2 * i + axis] = scene->forces.getForce(body.id)[axis] + state.mass * weight[axis];
 		}
 	}
-	for (int w = 0; w < capfrac::nWalls; ++w) {
-		const auto outward               = capfrac::Box::outward(w);
-		const auto velocity              = (*scene->bodies)[reader.wallIds[w]]->state->vel;
-		skeleton.velocity[2 * n + w]     = velocity[0] * outward.x + velocity[1] * outward.y;
-	}
+	addWalls(skeleton);
 	return skeleton;
+}
+
+void SinglePhaseFlowEngine::addWalls(capfrac::Skeleton& skeleton) const
+{
+	const int n = 2 * mesh.nGrains;
+	for (int w = 0; w < capfrac::nWalls; ++w) {
+		const auto outward       = capfrac::Box::outward(w);
+		const auto velocity      = (*scene->bodies)[reader.wallIds[w]]->state->vel;
+		skeleton.velocity[n + w] = velocity[0] * outward.x + velocity[1] * outward.y;
+	}
+	for (const auto& engine : scene->engines) {
+		auto* servo = dynamic_cast<WallServoEngine*>(engine.get());
+		if (!servo || servo->dead) continue;
+		servo->scene       = scene;
+		const auto answers = servo->answers();
+		for (int w = 0; w < capfrac::nWalls; ++w) {
+			// A wall that follows its stress is a dashpot: as a mass it would be one that starts from rest in each step.
+			skeleton.velocity[n + w] = answers[w].velocity;
+			if (answers[w].mobility <= 0) continue;
+			skeleton.velocity[n + w] = 0;
+			skeleton.mass[n + w]     = scene->dt * (1 + skeleton.damping) / answers[w].mobility;
+			skeleton.force[n + w]    = answers[w].velocity / answers[w].mobility;
+		}
+	}
 }
 
 void SinglePhaseFlowEngine::checkMotion(const Body& body) const
@@ -147,12 +188,7 @@ capfrac::FlowStep SinglePhaseFlowEngine::step(capfrac::FlowNetwork& network)
 		case Scheme::implicit: return capfrac::implicitStep(network, {}, scene->dt, solver, compression());
 		default: break;
 	}
-	// Without an integrator the grains stand still, whatever forces and velocities they have.
-	const bool moving = std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& engine) {
-		const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get());
-		return newton && !newton->dead;
-	});
-	if (!moving) return capfrac::implicitStep(network, {}, scene->dt, solver, compression());
+	if (!grainsMove()) return capfrac::implicitStep(network, {}, scene->dt, solver, compression());
 	return capfrac::coupledStep(network, skeleton(), scene->dt, solver);
 }
 
@@ -177,7 +213,9 @@ void SinglePhaseFlowEngine::advanceFluids()
 		const int p       = poreOfCell[c];
 		contents.water[c] = network.pores[p].mass / poreVolume[p] * voids[c];
 	}
-	porePressure = done.pressure;
+	cellPressure.resize(mesh.cells.size());
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+		cellPressure[c] = done.pressure[poreOfCell[c]];
 	waterIn += done.ledger.in - done.ledger.out;
 	massDefect += done.ledger.defect();
 	solverIterations = done.iterations;
@@ -215,17 +253,15 @@ capfrac::FluidForces SinglePhaseFlowEngine::forcesOfFluids() const
 
 std::vector<double> SinglePhaseFlowEngine::cellPressures() const
 {
-	std::vector<double> pressure(mesh.cells.size(), waterPressure);
-	if (poreOfCell.size() == mesh.cells.size() && static_cast<int>(porePressure.size()) == nPores)
-		for (std::size_t c = 0; c < pressure.size(); ++c)
-			pressure[c] = porePressure[poreOfCell[c]];
-	return pressure;
+	if (cellPressure.size() == mesh.cells.size()) return cellPressure;
+	return std::vector<double>(mesh.cells.size(), waterPressure);
 }
 
 Real SinglePhaseFlowEngine::wallStiffness(int wall) const
 {
-	// The pores at a wall as closed springs, dF/dx = (dV/dx)^2 K_f/V; an incompressible fluid counts as water.
-	if (!prepared() || poreVolume.empty() || gradients.walls.empty() || !math::isnan(wallPressures[wall])) return 0;
+	// The pores at a wall as closed springs, dF/dx = (dV/dx)^2 K_f/V; an incompressible fluid counts as water. A step that
+	// foresees the wall's motion is no spring to it.
+	if (scheme == Scheme::undrainedStable || !prepared() || poreVolume.empty() || gradients.walls.empty() || !math::isnan(wallPressures[wall])) return 0;
 	const Real modulus = std::isfinite(bulkModulus) ? bulkModulus : 2.2e9;
 	Real       sum     = 0;
 	std::map<int, Real> response;

@@ -26,6 +26,7 @@ public:
 protected:
 	void advanceFluids() override;
 	void startFluids() override;
+	void followRemesh(const capfrac::Triangulation& before) override;
 	void checkAttributes() const override;
 	bool drained() const override { return false; }
 	/// Of the very matrix that the step foresaw the volumes with: what the grains gain in work the fluid loses, to round-off.
@@ -41,6 +42,7 @@ private:
 	void                 addBoundaries(capfrac::FlowNetwork& network) const;
 	void                 fixPressure(capfrac::FlowNetwork& network, int pore, double pressure, const std::string& owner) const;
 	capfrac::Skeleton    skeleton() const;
+	void                 addWalls(capfrac::Skeleton& skeleton) const;
 	std::string          placeOf(int pore) const;
 	void                 checkMotion(const Body& body) const;
 	capfrac::GrainCompression compression() const;
@@ -54,7 +56,6 @@ private:
 	int                       nPores = 0;
 	std::vector<int>          poreOfCell;
 	std::vector<capfrac::Vec2> poreCentre;
-	std::vector<double>       porePressure; ///< of the pores of the last step
 	std::vector<double>       poreVolume;
 	capfrac::VolumeGradients  gradients; ///< of this step
 	capfrac::Accepted         accepted;
@@ -85,6 +86,7 @@ round-off through contacts that open and close and through remeshing. Walls are 
 		((Real,closedPore,1e-3,Attr::triggerPostLoad,"A pore smaller than this share of the smallest grain's area is joined to its neighbour across the widest throat: a pore that grains close pushes its fluid there [-], > 0."))
 		((std::vector<Real>,referenceRadii,,(Attr::hidden|Attr::readonly),"Radii at the start [m]."))
 		((Real,referencePressure,0,(Attr::hidden|Attr::readonly),"Pressure at the start [Pa]."))
+		((std::vector<Real>,cellPressure,,(Attr::hidden|Attr::readonly),"Pressures of the cells after the last step [Pa]; an incompressible fluid has no others."))
 		((Real,massDefect,0,Attr::readonly,"Sum of in - out - stored over all steps [m³] |yupdate|; round-off."))
 		((std::vector<Real>,wallInflow,std::vector<Real>(4,0),Attr::readonly,"Flow into the sample through the left, right, bottom and top wall in the last step [m³/s] |yupdate|."))
 		((int,solverIterations,0,Attr::readonly,"Iterations of the linear solver in the last step [-] |yupdate|."))

@@ -57,6 +57,7 @@ void SinglePhaseFlowEngine::pySetCellPressures(const std::vector<Real>& pressure
 	for (std::size_t c = 0; c < contents.water.size(); ++c)
 		contents.water[c] = capfrac::massAt(fixedPressures[c], voids[c], bulkModulus);
 	initialWater = thickness * contents.totalWater() - waterIn; // a new beginning of the books
+	cellPressure = fixedPressures;
 	fixedPressures.clear();
 }
 

@@ -73,10 +73,8 @@ void WallServoEngine::measure()
 		if (task(w) == Task::stress) error = math::max(error, math::abs(stress[w] - target(w)) / (high > 0 ? high : 1));
 }
 
-void WallServoEngine::action()
+std::array<Real, capfrac::nWalls> WallServoEngine::contactStiffness() const
 {
-	checkAttributes();
-	measure();
 	std::array<Real, capfrac::nWalls> stiffness {};
 	for (const auto& interaction : *scene->interactions) {
 		if (!interaction->isReal()) continue;
@@ -84,6 +82,14 @@ void WallServoEngine::action()
 		for (int w = 0; phys && w < capfrac::nWalls; ++w)
 			if (interaction->getId1() == reader.wallIds[w] || interaction->getId2() == reader.wallIds[w]) stiffness[w] += phys->kn;
 	}
+	return stiffness;
+}
+
+void WallServoEngine::action()
+{
+	checkAttributes();
+	measure();
+	auto stiffness = contactStiffness();
 	for (const auto& engine : scene->engines) // a fluid that cannot leave at once resists, too
 		if (const auto* network = dynamic_cast<const PoreNetworkEngine*>(engine.get()); network && !network->dead)
 			for (int w = 0; w < capfrac::nWalls; ++w)
@@ -97,11 +103,40 @@ void WallServoEngine::action()
 	}
 }
 
-Real WallServoEngine::followStress(int w, Real stiffness) const
+std::array<WallServoEngine::Answer, capfrac::nWalls> WallServoEngine::answers()
+{
+	const auto reported = stress; // the stresses without the fluid are nobody else's business
+	const auto off      = error;
+	measure();
+	const auto                          stiffness = contactStiffness();
+	std::array<Answer, capfrac::nWalls> found {};
+	for (int w = 0; w < capfrac::nWalls; ++w) {
+		const auto& state   = *(*scene->bodies)[reader.wallIds[w]]->state;
+		const auto  outward = capfrac::Box::outward(w);
+		const Task  todo    = task(w);
+		if (todo == Task::driven) found[w].velocity = -driveVelocity;
+		if (todo != Task::stress) continue;
+		// What it does at its highest speed, touching nothing or for the mean stress is not linear in its own force: as it moved last.
+		const Real last = state.vel[0] * outward.x + state.vel[1] * outward.y;
+		if (stiffness[w] <= 0 || math::abs(last) >= maxVelocity || !math::isnan(meanStress)) found[w].velocity = last;
+		else
+			found[w].mobility = gain / (stiffness[w] * scene->dt), found[w].velocity = found[w].mobility * excess(w);
+	}
+	stress = reported;
+	error  = off;
+	return found;
+}
+
+Real WallServoEngine::excess(int w) const
 {
 	const Real length = w < 2 ? reader.box.height() : reader.box.width();
-	const Real excess = (stress[w] - target(w)) * length * thickness;
-	const Real speed  = stiffness > 0 ? gain * excess / (stiffness * scene->dt) : excess > 0 ? maxVelocity : excess < 0 ? -maxVelocity : 0;
+	return (stress[w] - target(w)) * length * thickness;
+}
+
+Real WallServoEngine::followStress(int w, Real stiffness) const
+{
+	const Real force = excess(w);
+	const Real speed = stiffness > 0 ? gain * force / (stiffness * scene->dt) : force > 0 ? maxVelocity : force < 0 ? -maxVelocity : 0;
 	return math::max(-maxVelocity, math::min(maxVelocity, speed));
 }
 

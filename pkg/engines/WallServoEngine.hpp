@@ -13,6 +13,14 @@ public:
 	void action() override;
 	void postLoad(WallServoEngine&) { guardAttributes(); }
 
+	/// How a wall will move in this step: outward speed [m/s] plus `mobility` [m/(N s)] times the outward force that is still to
+	/// be added to those on it now.
+	struct Answer {
+		Real velocity = 0, mobility = 0;
+	};
+	/// For a fluid that has to foresee its walls; call it when all other forces are there. The order is that of capfrac::Wall.
+	std::array<Answer, capfrac::nWalls> answers();
+
 	/// Finds the walls and reads the stresses on them without moving anything.
 	void measure();
 	void pyMeasure();
@@ -24,6 +32,10 @@ private:
 	Task task(int wall) const;
 	/// Requested stress on a wall [Pa], from the stresses measured in this step.
 	Real target(int wall) const;
+	/// Sum of the stiffness of each wall's contacts [N/m].
+	std::array<Real, capfrac::nWalls> contactStiffness() const;
+	/// Outward force on a wall beyond the requested one [N].
+	Real excess(int wall) const;
 	/// Outward speed that brings a wall nearer to its stress [m/s]; `stiffness` of its contacts [N/m].
 	Real followStress(int wall, Real stiffness) const;
 

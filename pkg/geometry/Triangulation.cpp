@@ -1,6 +1,5 @@
-#include "Triangulation.hpp"
+#include "PowerPoints.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Regular_triangulation_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
@@ -11,32 +10,11 @@ namespace capfrac {
 
 namespace {
 
-	using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+	using Kernel = PowerPoints::Kernel;
 	using VertexBase
 	        = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel, CGAL::Regular_triangulation_vertex_base_2<Kernel>>;
 	using FaceBase         = CGAL::Regular_triangulation_face_base_2<Kernel>;
 	using PowerTriangulation = CGAL::Regular_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
-	using WeightedPoint    = Kernel::Weighted_point_2;
-
-	/// Radius of the disk that stands for a wall, in box sizes. Its surface then sags by less than 1e-5 of
-	/// the box over the wall, and its rounding error stays below 1e-11 of it.
-	constexpr double wallRadiusInBoxes = 1e5;
-
-	WeightedPoint weightedWall(int wall, const Box& box)
-	{
-		const double radius = wallRadiusInBoxes * std::max(box.width(), box.height());
-		const Vec2   middle { 0.5 * (box.left + box.right), 0.5 * (box.bottom + box.top) };
-		const Vec2   centre = box.foot(wall, middle) + radius * Box::outward(wall);
-		return WeightedPoint(Kernel::Point_2(centre.x, centre.y), radius * radius);
-	}
-
-	WeightedPoint weightedVertex(int vertex, const std::vector<Disk>& grains, const Box& box)
-	{
-		const int nGrains = static_cast<int>(grains.size());
-		if (vertex >= nGrains) return weightedWall(vertex - nGrains, box);
-		const Disk& g = grains[vertex];
-		return WeightedPoint(Kernel::Point_2(g.centre.x, g.centre.y), g.radius * g.radius);
-	}
 
 	std::array<int, 3> smallestFirst(std::array<int, 3> v)
 	{
@@ -88,13 +66,13 @@ void checkGrains(const std::vector<Disk>& grains, const Box& box)
 Triangulation triangulate(const std::vector<Disk>& grains, const Box& box)
 {
 	checkGrains(grains, box);
-	const int nVertices = static_cast<int>(grains.size()) + nWalls;
 
 	// The pairs are inserted in CGAL's own spatial order; the result does not depend on the numbering.
-	std::vector<std::pair<WeightedPoint, int>> points;
-	points.reserve(nVertices);
-	for (int v = 0; v < nVertices; ++v)
-		points.emplace_back(weightedVertex(v, grains, box), v);
+	const PowerPoints                                       weighted(grains, box);
+	std::vector<std::pair<PowerPoints::WeightedPoint, int>> points;
+	points.reserve(weighted.size());
+	for (int v = 0; v < weighted.size(); ++v)
+		points.emplace_back(weighted[v], v);
 	PowerTriangulation power;
 	power.insert(points.begin(), points.end());
 	checkNoneHidden(power, grains.size());
@@ -144,26 +122,11 @@ void connectCells(Triangulation& mesh)
 
 bool isRegular(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box)
 {
-	std::vector<WeightedPoint> points;
-	points.reserve(grains.size() + nWalls);
-	for (int v = 0; v < static_cast<int>(grains.size()) + nWalls; ++v)
-		points.push_back(weightedVertex(v, grains, box));
-
-	const Kernel kernel;
-	const auto   powerSide   = kernel.power_side_of_oriented_power_circle_2_object();
-	const auto   orientation = kernel.orientation_2_object();
+	const PowerPoints points(grains, box);
 	for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c) {
-		const auto& v = mesh.cells[c].vertex;
-		if (orientation(points[v[0]].point(), points[v[1]].point(), points[v[2]].point()) != CGAL::LEFT_TURN) return false;
-		for (int k = 0; k < 3; ++k) {
-			const int other = mesh.cells[c].neighbour[k];
-			if (other <= c) continue; // outside, or seen from the other cell
-			const auto& u = mesh.cells[other].vertex;
-			for (int opposite : u)
-				if (opposite != v[(k + 1) % 3] && opposite != v[(k + 2) % 3]
-				    && powerSide(points[v[0]], points[v[1]], points[v[2]], points[opposite]) == CGAL::ON_POSITIVE_SIDE)
-					return false;
-		}
+		if (!points.isCounterClockwise(mesh.cells[c].vertex)) return false;
+		for (int k = 0; k < 3; ++k)
+			if (mesh.cells[c].neighbour[k] > c && !isLocallyRegular(mesh.cells, c, k, points)) return false;
 	}
 	return true;
 }
