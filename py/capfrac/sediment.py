@@ -143,6 +143,16 @@ def engine(label):
     raise SceneError(f"the scene has no engine with the label '{label}'; make the sample with capfrac.sediment.buildScene")
 
 
+def insertFlow(flow):
+    """Put a fluid engine (with a label) where it belongs, after the contacts and before the servo; returns it as YADE holds it."""
+    from yade import O
+
+    engines = list(O.engines)
+    engines.insert(engines.index(engine("servo")), flow)
+    O.engines = engines
+    return engine(flow.label)
+
+
 def grainBodies():
     """The grains of the current scene."""
     from yade import O, Sphere
