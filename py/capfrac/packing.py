@@ -75,3 +75,20 @@ def checkOverlaps(x, y, r):
         j = int(np.argmax(overlap / np.minimum(r[i], r[:i])))
         if overlap[j] > 0.5 * min(r[i], r[j]):
             raise CaseError(f"grains {j + 1} and {i + 1} of the packing overlap by {overlap[j]:.4g} m, allowed: up to half of the smaller radius, {0.5 * min(r[i], r[j]):.4g} m")
+
+
+def hexagonal(count, radius, aspect=1.0):
+    """About ``count`` equal disks of ``radius`` [m] on a triangular lattice, touching, height over width about ``aspect``; (x, y, radii) [m].
+
+    A material without disorder: every pore deforms like every other. Every second row has a disk less. :class:`CaseError` for fewer than 7 disks.
+    """
+    if count < 7 or not radius > 0 or not aspect > 0:
+        raise CaseError(f"count = {count}, radius = {radius} m, aspect = {aspect}; allowed: at least 7 disks, radius and aspect > 0")
+    rows = max(3, round(math.sqrt(count * aspect * 2 / math.sqrt(3))))
+    columns = max(3, round(count / rows))
+    x, y = [], []
+    for row in range(rows):
+        for column in range(columns - row % 2):
+            x.append(radius * (1 + 2 * column + row % 2))
+            y.append(radius * (1 + math.sqrt(3) * row))
+    return np.array(x), np.array(y), np.full(len(x), float(radius))

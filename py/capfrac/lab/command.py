@@ -5,7 +5,7 @@ from pathlib import Path
 
 from capfrac import keys, snapshot
 from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, contacts, figures, flow, hydrate_ridge, parameters, settling, tables, undrained
+from capfrac.lab import biaxial, compaction, consolidation, contacts, figures, flow, hydrate_ridge, parameters, settling, stability, tables, undrained, water_figures
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 from capfrac.lab.run import LabRun
 
@@ -23,6 +23,9 @@ TITLES = {
     "contacts": "the contact law on two grains (Equations 1 and 2)",
     "diffusion": "permeability, storage and the diffusion of pressure (Table 1, Figures 11 and 12)",
     "undrained": "compaction of a sealed sample and its Biot coefficient (Figure 13)",
+    "terzaghi": "consolidation under a sudden load, drained at the top, against Terzaghi's solution",
+    "mandel": "consolidation between plates, drained at the sides: the pressure rises first (Mandel)",
+    "stability": "long runs with water: energy, flips, and the books of the mass",
 }
 
 
@@ -167,12 +170,37 @@ def _undrained(sample, own, run, base):
     found = undrained.undrained(sample, run=run, **own)
     columns = ("strain", "total", "dry", "pressure", "effective")
     run.table("undrained", {f"{name} [{'-' if name == 'strain' else 'Pa'}]": found[name] for name in columns})
-    run.picture("figure13", lambda path: figures.drawUndrained(found, path))
+    run.picture("figure13", lambda path: water_figures.drawUndrained(found, path))
+    if "compressible" in found:
+        run.table("compressible", {f"{name} [{'-' if name == 'strain' else 'Pa'}]": found["compressible"][name] for name in columns})
+        found["compressible"] = {key: value for key, value in found["compressible"].items() if key not in columns}
     return {key: value for key, value in found.items() if key not in columns}
 
 
+def _consolidation(kind, draw):
+    def test(sample, own, run, base):
+        found = consolidation.consolidation(sample, kind, run=run, **own)
+        columns = [name for name in ("T", "pressure", "pressureExpected", "degree", "degreeExpected") if name in found]
+        run.table(kind, {f"{name} [-]": found[name] for name in columns})
+        run.picture(kind, lambda path: draw(found, path))
+        return {key: value for key, value in found.items() if key not in columns}
+
+    return test
+
+
+def _stability(sample, own, run, base):
+    found = stability.stability(sample, run=run, **own)
+    run.picture("stability", lambda path: water_figures.drawStability(found, path))
+    for kind, unit in (("shake", "energy [-]"), ("stir", "flips [-]")):
+        for name, one in found[kind].items():
+            run.table(f"{kind}-{name}".replace(" ", "_"), {"steps [-]": one["steps"], unit: one[unit.split()[0]], "ledger [-]": one["ledger"], "pressure [Pa]": one["pressure"]})
+    return {kind: {name: {key: (max(value) if key in ("energy", "ledger", "pressure") else value) for key, value in one.items() if key not in ("steps", "motion", "strain", "flips", "smallest")}
+                   for name, one in found[kind].items()} for kind in ("shake", "stir")}
+
+
 _TESTS = {"settle": _settle, "timestep": _timestep, "compact": _compact, "fit": _fit, "hydrate-ridge": _hydrateRidge, "path": _path, "biaxial": _biaxial,
-          "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "diffusion": _diffusion, "undrained": _undrained}
+          "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "diffusion": _diffusion, "undrained": _undrained,
+          "terzaghi": _consolidation("terzaghi", water_figures.drawTerzaghi), "mandel": _consolidation("mandel", water_figures.drawMandel), "stability": _stability}
 
 
 # --- the command ---------------------------------------------------------------------------------

@@ -16,14 +16,15 @@ CYCLE = (COLOURS["dot"], COLOURS["compression"], COLOURS["tension"], COLOURS["br
 BAND = "#e4e0d2"
 
 
-def _tidy(figure):
+def tidy(figure):
+    """Small labels, no frame on top and on the right."""
     for axes in figure.axes:
         axes.tick_params(labelsize=8)
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
 
 
-def _pressureUnit(highest):
+def pressureUnit(highest):
     """Power of ten and unit for axes up to ``highest`` [Pa]."""
     return max((p, u) for p, u in ((0, "Pa"), (3, "kPa"), (6, "MPa")) if p == 0 or highest >= 10.0**p)
 
@@ -70,7 +71,7 @@ def drawScaling(result, path):
             axes.loglog(x, y, linestyle="none", marker="o", markersize=4, color=COLOURS["dot"], zorder=2)
             axes.set(xlabel=label, ylabel="time step [s]")
             axes.text(0.5, 0.93, f"exponent {found['exponent']:.4f} $\\pm$ {found['error']:.4f}", transform=axes.transAxes, ha="center", fontsize=9)
-        _tidy(figure)
+        tidy(figure)
         saveFigure(figure, path)
 
 
@@ -78,7 +79,7 @@ def drawCompaction(found, path, title=None):
     """Stress against strain, and void ratio against log stress, of a compaction (a dict) with its loops (Figure 10)."""
     table = found["table"]
     strain, stress, void = (np.array(table[name]) for name in ("strain [-]", "stressV [Pa]", "voidRatioUsed [-]"))
-    power, unit = _pressureUnit(stress.max())
+    power, unit = pressureUnit(stress.max())
     with newFigure((7.6, 3.3)) as figure:
         curve, log = figure.subplots(1, 2, gridspec_kw={"left": 0.09, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.28})
         curve.plot(100 * strain, stress / 10.0**power, color=COLOURS["dot"], linewidth=1.2)
@@ -95,7 +96,7 @@ def drawCompaction(found, path, title=None):
         for number, loop in enumerate(found["loops"]):
             log.plot([], [], linestyle="none", label=f"$C_r$ = {loop['Cr']:.3f} at {loop['strain']:.0%}")
         log.legend(fontsize=7, frameon=False, loc="lower left", handlelength=1.6)
-        _tidy(figure)
+        tidy(figure)
         if title:
             figure.suptitle(title, fontsize=10, y=0.985)
         saveFigure(figure, path)
@@ -104,7 +105,7 @@ def drawCompaction(found, path, title=None):
 def drawHydrateRidge(result, path):
     """The compactions at the fitted stiffnesses, and their local C_c and C_r against the reported ranges (Figure 10)."""
     highest = max(max(found["table"]["stressV [Pa]"]) for found in result["compactions"].values())
-    power, unit = _pressureUnit(highest)
+    power, unit = pressureUnit(highest)
     with newFigure((9.6, 3.7)) as figure:
         curve, slope, unloading = figure.subplots(1, 3, gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.3, "top": 0.95, "wspace": 0.3})
         for colour, (name, found) in zip(CYCLE, result["compactions"].items()):
@@ -123,14 +124,14 @@ def drawHydrateRidge(result, path):
         curve.set(xlabel="vertical strain [%]", ylabel=f"vertical stress [{unit}]", xlim=(0, None), ylim=(0, None))
         for axes in (curve, slope, unloading):
             axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(-0.08, -0.16))
-        _tidy(figure)
+        tidy(figure)
         saveFigure(figure, path)
 
 
 def drawBiaxial(result, path, title=None):
     """Deviator and volume against strain for each confining stress, and the Mohr circles at the peaks with their envelope."""
     tests = result["tests"]
-    power, unit = _pressureUnit(max(test["peak"] for test in tests))
+    power, unit = pressureUnit(max(test["peak"] for test in tests))
     with newFigure((9.6, 3.3)) as figure:
         deviator, volume, mohr = figure.subplots(1, 3, gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.3})
         for colour, test in zip(CYCLE, tests):
@@ -144,7 +145,7 @@ def drawBiaxial(result, path, title=None):
         deviator.legend(fontsize=7, frameon=False)
         volume.set(xlabel="vertical strain [%]", ylabel="volumetric strain [%] (compression +)", xlim=(0, None))
         _drawEnvelope(mohr, result, max(test["peak"] for test in tests) / 10.0**power, power, unit)
-        _tidy(figure)
+        tidy(figure)
         if title:
             figure.suptitle(title, fontsize=10, y=0.985)
         saveFigure(figure, path)
@@ -169,7 +170,7 @@ def _drawEnvelope(axes, result, highest, power, unit):
 def drawPath(rows, path, title=None):
     """A stress path: stress against strain, and deviator against mean stress."""
     axial, lateral, vertical, horizontal = (np.array(rows[name]) for name in ("strain [-]", "lateralStrain [-]", "stressV [Pa]", "stressH [Pa]"))
-    power, unit = _pressureUnit(max(vertical.max(), horizontal.max()))
+    power, unit = pressureUnit(max(vertical.max(), horizontal.max()))
     with newFigure((7.6, 3.3)) as figure:
         curve, invariants = figure.subplots(1, 2, gridspec_kw={"left": 0.09, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.28})
         curve.plot(100 * axial, vertical / 10.0**power, color=COLOURS["dot"], marker=".", label="$\\sigma_V$ against $\\varepsilon_V$")
@@ -178,7 +179,7 @@ def drawPath(rows, path, title=None):
         curve.legend(fontsize=8, frameon=False)
         invariants.plot(0.5 * (vertical + horizontal) / 10.0**power, (vertical - horizontal) / 10.0**power, color=COLOURS["dot"], marker=".")
         invariants.set(xlabel=f"mean stress [{unit}]", ylabel=f"$\\sigma_V - \\sigma_H$ [{unit}]", xlim=(0, None))
-        _tidy(figure)
+        tidy(figure)
         if title:
             figure.suptitle(title, fontsize=10, y=0.985)
         saveFigure(figure, path)
@@ -198,7 +199,7 @@ def drawSizes(result, path):
         axes.axhspan(0.975, 1.025, color=BAND, zorder=0, label="5 %")
         axes.set(xlabel="smallest radius [m]", ylabel="property / its mean", ylim=(0.9, 1.1))
         axes.legend(fontsize=8, frameon=False, ncol=5)
-        _tidy(figure)
+        tidy(figure)
         saveFigure(figure, path)
 
 
@@ -216,7 +217,7 @@ def drawSensitivity(result, path):
         axes.invert_yaxis()
         axes.axvline(0, color="0.3", linewidth=0.8)
         axes.legend(fontsize=8, frameon=False, ncol=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
-        _tidy(figure)
+        tidy(figure)
         saveFigure(figure, path)
 
 
@@ -232,7 +233,7 @@ def drawRates(result, path):
         axes.plot([], [], color="black", linewidth=1.1, label="Eqs. 21, 22")
         axes.set(xlabel="time $\\tau = t\\,k/(c_v\\mu H^2)$", ylabel="flow / steady flow", ylim=(-0.2, 8))
         axes.legend(fontsize=8, frameon=False)
-        _tidy(figure)
+        tidy(figure)
         saveFigure(figure, path)
 
 
@@ -248,22 +249,5 @@ def drawProfiles(result, path):
             axes.plot(xi, pressureProfile(xi, profile["tau"]), color=colour, linewidth=1.2, label=f"$\\tau$ = {profile['tau']:.3g}")
         axes.set(xlabel="$x/H$", ylabel="$p/\\Delta p$", xlim=(-0.02, 1.02), ylim=(-0.03, 1.05))
         axes.legend(fontsize=8, frameon=False, loc="upper left")
-        _tidy(figure)
-        saveFigure(figure, path)
-
-
-def drawUndrained(result, path):
-    """Total, dry and effective stress and the water's pressure against strain (Figure 13)."""
-    strain = 100 * np.array(result["strain"])
-    power, unit = _pressureUnit(max(result["total"]))
-    with newFigure((5.2, 3.5)) as figure:
-        axes = figure.add_axes([0.14, 0.14, 0.83, 0.82])
-        for colour, name, label, style in ((COLOURS["dot"], "total", "total stress, sealed", "-"), (COLOURS["gas"], "pressure", "pressure of the water", "-"),
-                                           (COLOURS["compression"], "dry", "stress, dry", "-"),
-                                           (COLOURS["broken"], "effective", f"$\\sigma - b\\,p$, $b$ = {result['biot']:.3f} $\\pm$ {result['biotError']:.3f}", "o")):
-            line = {"linestyle": "none", "marker": "o", "markersize": 3.5, "markerfacecolor": "white"} if style == "o" else {"linewidth": 1.3}
-            axes.plot(strain, np.array(result[name]) / 10.0**power, color=colour, label=label, **line)
-        axes.set(xlabel="vertical strain [%]", ylabel=f"stress [{unit}]", xlim=(0, None), ylim=(0, None))
-        axes.legend(fontsize=8, frameon=False)
-        _tidy(figure)
+        tidy(figure)
         saveFigure(figure, path)

@@ -90,7 +90,16 @@ TESTS = {
                       Key("", "strain", float, "-", 0.01, "Vertical strain at the end.", low=0, openLow=True, high=0.2),
                       positive("", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f; that of water is 2.2e9."), positive("", "viscosity", "Pa s", 1e-3, "Viscosity of the fluid."),
                       notNegative("", "bondStrength", "Pa", 1e6, "Strength of the bonds, sigma_c = tau_c of Eq. 5; 0: no bonds."),
+                      Key("", "grainBulkModulus", float, "Pa", None, "Bulk modulus K_s of Eq. 10: a second sealed sample of grains that the water compresses; default none.", low=0, openLow=True),
                       Key("", "inertialNumber", float, "-", 5e-5, "Inertial number of the test.", low=0, openLow=True, high=1e-2)),
+    **{kind: _own(kind, positive("", "stress", "Pa", 100e3, "Isotropic stress of the preparation."), positive("", "load", "Pa", 5e3, "Additional stress on the roof."),
+                  positive("", "bulkModulus", "Pa", 2.2e9, "Bulk modulus of the fluid K_f."),
+                  notNegative("", "bondStrength", "Pa", 1e6, "Strength of the bonds, sigma_c = tau_c of Eq. 5."),
+                  Key("", "arrangement", str, "-", "hexagonal", "Grains settled by gravity, or equal ones of rMin on a lattice.", choices=("settled", "hexagonal")),
+                  Key("", "steps", int, "-", 60_000, "Time steps in which the sample consolidates; the viscosity follows from it.", low=1000)) for kind in ("terzaghi", "mandel")},
+    "stability": _own("stability", Key("", "bulkModuli", list, "Pa", (1e7, 2.2e9), "Bulk moduli of the fluids with which the sample is shaken, beside an incompressible one."),
+                      Key("", "steps", int, "-", 100_000, "Time steps of each run.", low=100), positive("", "stress", "Pa", 100e3, "Isotropic stress of the preparation."),
+                      Key("", "strain", float, "-", 0.25, "Strain to which the roof goes up and down.", low=0, openLow=True, high=0.39)),
 }
 
 

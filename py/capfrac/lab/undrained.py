@@ -27,23 +27,23 @@ from capfrac.lab.run import LabRun
 ROWS = 20
 
 
-def undrained(sample, stress=100e3, strain=0.01, bulkModulus=1e7, viscosity=1e-3, bondStrength=1e6, grainBulkModulus=math.inf, inertialNumber=5e-5, run=None):
+def undrained(sample, stress=100e3, strain=0.01, bulkModulus=1e7, viscosity=1e-3, bondStrength=1e6, grainBulkModulus=None, inertialNumber=5e-5, run=None):
     """Compress the same sample dry and sealed; a dict.
 
     ``stress`` of the preparation [Pa]; ``strain`` at the end; fluid ``bulkModulus`` [Pa] and ``viscosity`` [Pa s]; ``bondStrength``
-    sigma_c = tau_c [Pa], 0: none; ``grainBulkModulus`` K_s [Pa], where finite the sealed sample is compressed a second time with grains that
+    sigma_c = tau_c [Pa], 0: none; ``grainBulkModulus`` K_s [Pa]: if given, the sealed sample is compressed a second time with grains that
     the water compresses. The dict holds ``strain`` [-], ``total``, ``dry``, ``pressure`` (mean over the voids) and ``effective`` =
     sigma - b p [Pa]; ``biot`` b and ``biotError`` (standard error); ``misfit``, largest |sigma - b p - sigma_dry| over the largest sigma_dry;
     ``skempton`` B and ``skemptonExpected``, ``biotModulus`` M and ``biotModulusExpected`` [Pa], ``bulkModulusDry`` K and ``shearModulusDry`` G [Pa],
-    ``porosity`` phi, ``ledger``, relative error of the water's mass; and with a finite K_s under ``compressible`` the same of those grains, with
+    ``porosity`` phi, ``ledger``, relative error of the water's mass; and with K_s under ``compressible`` the same of those grains, with
     ``biotExpected``. :class:`CaseError` for impossible values.
     """
     run = run or LabRun("undrained", {})
-    for name, value in (("strain", strain), ("bulkModulus", bulkModulus), ("viscosity", viscosity), ("grainBulkModulus", grainBulkModulus)):
-        if not (value > 0 and (math.isfinite(value) or name in ("bulkModulus", "grainBulkModulus"))):
+    for name, value in (("strain", strain), ("bulkModulus", bulkModulus), ("viscosity", viscosity), ("grainBulkModulus", grainBulkModulus or 1.0)):
+        if not (value > 0 and (math.isfinite(value) or name == "bulkModulus")):
             raise CaseError(f"{name} = {value}, allowed: > 0")
     fluids = {"dry": None, "sealed": {"bulkModulus": bulkModulus, "viscosity": viscosity}}
-    if math.isfinite(grainBulkModulus):
+    if grainBulkModulus is not None:
         fluids["compressible"] = {**fluids["sealed"], "grainBulkModulus": grainBulkModulus}
     curves = {name: run.result(name, lambda: _compact(sample, stress, strain, bondStrength, inertialNumber, fluid, run)) for name, fluid in fluids.items()}
     moduli = _moduli(curves["dry"])
