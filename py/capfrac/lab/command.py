@@ -5,7 +5,8 @@ from pathlib import Path
 
 from capfrac import keys, snapshot
 from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, consolidation, contacts, figures, flow, hydrate_ridge, parameters, settling, stability, tables, undrained, water_figures
+from capfrac.lab import (biaxial, closedforms, compaction, consolidation, contacts, figures, flow, flow_figures, hydrate_ridge, parameters, settling, stability,
+                         tables, undrained, water_figures)
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 from capfrac.lab.run import LabRun
 
@@ -21,6 +22,7 @@ TITLES = {
     "sizes": "macroscopic properties against grain size (Equation 5)",
     "sensitivity": "macroscopic properties against microscopic parameters",
     "contacts": "the contact law on two grains (Equations 1 and 2)",
+    "closed-forms": "water between grains set by hand against formulas in closed form",
     "diffusion": "permeability, storage and the diffusion of pressure (Table 1, Figures 11 and 12)",
     "undrained": "compaction of a sealed sample and its Biot coefficient (Figure 13)",
     "terzaghi": "consolidation under a sudden load, drained at the top, against Terzaghi's solution",
@@ -158,12 +160,30 @@ def _contacts(sample, own, run, base):
     return {name: _withoutTable(one) for name, one in found.items()}
 
 
+def _closedForms(sample, own, run, base):
+    found = closedforms.checkClosedForms(sample, run=run, **own)
+    run.table("closed-forms", closedforms.table(found))
+    run.picture("closed-forms", lambda path: flow_figures.drawClosedForms(found, path))
+    return closedforms.summary(found)
+
+
 def _diffusion(sample, own, run, base):
     found = flow.diffusion(sample, run=run, **own)
-    run.table("rates", found["rates"])
-    run.picture("figure11", lambda path: figures.drawRates(found, path))
-    run.picture("figure12", lambda path: figures.drawProfiles(found, path))
+    run.table("rates", {f"{name} [-]": values for name, values in found["rates"].items()})
+    run.table("profiles", _columns(found["profiles"], lambda p: p, ("xi", "pressure", "expected", "expectedOfSteady")))
+    run.table("layers", _columns(found["profiles"], lambda p: p["layers"], ("xi", "pressure", "expected")))
+    run.picture("figure11", lambda path: flow_figures.drawRates(found, path))
+    run.picture("figure12", lambda path: flow_figures.drawProfiles(found, path))
+    if found["schemes"]:
+        run.picture("explicit", lambda path: flow_figures.drawSchemes(found, path))
+        found["schemes"] = {key: value for key, value in found["schemes"].items() if key not in ("rates", "profiles", "implicitProfiles")}
     return {key: value for key, value in found.items() if key not in ("rates", "profiles")}
+
+
+def _columns(profiles, of, names):
+    """The profiles one below the other: columns of a table."""
+    tau = [p["tau"] for p in profiles for _ in of(p)["xi"]]
+    return {"tau [-]": tau, **{f"{name} [-]": [value for p in profiles for value in of(p)[name]] for name in names}}
 
 
 def _undrained(sample, own, run, base):
@@ -199,7 +219,7 @@ def _stability(sample, own, run, base):
 
 
 _TESTS = {"settle": _settle, "timestep": _timestep, "compact": _compact, "fit": _fit, "hydrate-ridge": _hydrateRidge, "path": _path, "biaxial": _biaxial,
-          "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "diffusion": _diffusion, "undrained": _undrained,
+          "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "closed-forms": _closedForms, "diffusion": _diffusion, "undrained": _undrained,
           "terzaghi": _consolidation("terzaghi", water_figures.drawTerzaghi), "mandel": _consolidation("mandel", water_figures.drawMandel), "stability": _stability}
 
 

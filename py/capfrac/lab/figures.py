@@ -219,35 +219,3 @@ def drawSensitivity(result, path):
         axes.legend(fontsize=8, frameon=False, ncol=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
         tidy(figure)
         saveFigure(figure, path)
-
-
-def drawRates(result, path):
-    """In- and outflow over the steady flow against time, with Eqs. 21 and 22 (Figure 11)."""
-    rates = {name: np.array(values) for name, values in result["rates"].items()}
-    shown = rates["tau"] > 1e-4
-    with newFigure((5.4, 3.3)) as figure:
-        axes = figure.add_axes([0.12, 0.15, 0.85, 0.8])
-        for colour, name in ((COLOURS["dot"], "inflow"), (COLOURS["compression"], "outflow")):
-            axes.semilogx(rates["tau"][shown], rates[f"expected{name.capitalize()}"][shown], color=colour, linewidth=1.1)
-            axes.semilogx(rates["tau"][shown][::6], rates[name][shown][::6], color=colour, linestyle="none", marker="o", markersize=3.5, markerfacecolor="white", label=name)
-        axes.plot([], [], color="black", linewidth=1.1, label="Eqs. 21, 22")
-        axes.set(xlabel="time $\\tau = t\\,k/(c_v\\mu H^2)$", ylabel="flow / steady flow", ylim=(-0.2, 8))
-        axes.legend(fontsize=8, frameon=False)
-        tidy(figure)
-        saveFigure(figure, path)
-
-
-def drawProfiles(result, path):
-    """Pressure of each pore over the height at several times, with Eq. 20 (Figure 12)."""
-    from capfrac.lab.flow import pressureProfile
-
-    xi = np.linspace(0, 1, 201)
-    with newFigure((5.0, 3.8)) as figure:
-        axes = figure.add_axes([0.13, 0.13, 0.84, 0.83])
-        for colour, profile in zip(CYCLE, result["profiles"]):
-            axes.plot(profile["xi"], profile["pressure"], linestyle="none", marker=".", markersize=2.5, color=colour)
-            axes.plot(xi, pressureProfile(xi, profile["tau"]), color=colour, linewidth=1.2, label=f"$\\tau$ = {profile['tau']:.3g}")
-        axes.set(xlabel="$x/H$", ylabel="$p/\\Delta p$", xlim=(-0.02, 1.02), ylim=(-0.03, 1.05))
-        axes.legend(fontsize=8, frameon=False, loc="upper left")
-        tidy(figure)
-        saveFigure(figure, path)

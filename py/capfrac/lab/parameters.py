@@ -4,6 +4,7 @@ Every test knows the section ``grains`` and a section of its own. From a script 
 :class:`~capfrac.sediment.Sediment` and keyword arguments of the same names.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 from capfrac import grading, keys
@@ -31,8 +32,6 @@ _INERTIAL = Key("", "inertialNumber", float, "-", 5e-4, "Inertial number of the 
 
 def _own(section, *own):
     """Keys of a test: those of the grains, and its own put into its section."""
-    from dataclasses import replace
-
     return GRAINS + tuple(replace(key, section=section) for key in own)
 
 
@@ -81,11 +80,18 @@ TESTS = {
     "sensitivity": _own("sensitivity", positive("", "factor", "-", 2.0, "Factor by which each micro parameter is raised and lowered."),
                         *(key for key in _BIAXIAL if key.name != "bondStrength"), positive("", "bondStrength", "Pa", 100e3, "Strength of the bonds of the reference sample.")),
     "contacts": GRAINS[8:12],
+    "closed-forms": tuple(key for key in GRAINS if key.name in ("rMin", "rMax", "seed", "density", "normalStiffness", "shearStiffness", "friction")) + (
+        replace(GRAINS[0], default=60, meaning="Number of grains of the sample that is stated in several systems of units."),
+        positive("closed-forms", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f."),
+        positive("closed-forms", "viscosity", "Pa s", 1e-3, "Viscosity of the fluid."),
+        positive("closed-forms", "pressure", "Pa", 1e3, "Difference of pressure that drives the flow.")),
     "diffusion": _own("diffusion", positive("", "stress", "Pa", 100e3, "Isotropic stress of the preparation."), positive("", "pressure", "Pa", 1e3, "Pressure set along the top."),
                       positive("", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f."), positive("", "viscosity", "Pa s", 1e-3, "Viscosity of the fluid."),
                       positive("", "conductanceFactor", "-", 1.0, "Factor of all conductances; 0.32 reproduces the paper's permeability, a fit."),
                       Key("", "timeIntegration", str, "-", "implicit", "Scheme in time.", choices=("implicit", "explicit")),
-                      Key("", "steps", int, "-", 400, "Steps of time, longer as time goes on.", low=50)),
+                      Key("", "steps", int, "-", 400, "Steps of time, longer as time goes on.", low=50),
+                      Key("", "halvings", int, "-", 2, "Times that the steps are halved to see how the implicit scheme converges, 0, or 2 to 5.", low=0, high=5),
+                      Key("", "explicitGrains", int, "-", 0, "Grains of a second sample on which the explicit scheme runs, too; 600: a minute; 0: none.", low=0)),
     "undrained": _own("undrained", positive("", "stress", "Pa", 100e3, "Isotropic stress at which the sample is sealed."),
                       Key("", "strain", float, "-", 0.01, "Vertical strain at the end.", low=0, openLow=True, high=0.2),
                       positive("", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f; that of water is 2.2e9."), positive("", "viscosity", "Pa s", 1e-3, "Viscosity of the fluid."),

@@ -1,0 +1,91 @@
+"""Fixed grains that are set by hand, and `SinglePhaseFlowEngine` alone among them.
+
+Disks are lists of (x, y, radius) [m], boxes are (left, right, bottom, top) [m]. Walls mirror: a grain whose centre is half a
+spacing from a wall has its image behind it, so that samples of a few rows behave like endless ones.
+"""
+
+import math
+
+import numpy as np
+
+from capfrac import sediment
+from capfrac.errors import CaseError
+
+
+def column(place, radii):
+    """Touching grains, one on the other, from the floor up: the ``place`` x of their centres and their ``radii`` [m]; disks."""
+    centres = np.cumsum([2 * r for r in radii]) - np.array(radii)
+    return [(place, float(y), r) for y, r in zip(centres, radii)]
+
+
+def squareLattice(across, along, radius, gap=0.0):
+    """``across`` times ``along`` grains at the corners of squares, with ``gap`` [m] > -2 radius between neighbours; disks and box."""
+    _requireCounts(1, across=across, along=along)
+    a = _spacing(radius, gap)
+    return [(a * (i + 0.5), a * (j + 0.5), radius) for i in range(across) for j in range(along)], (0.0, across * a, 0.0, along * a)
+
+
+def triangularLattice(columns, rows, radius, gap=0.0):
+    """``rows`` of ``columns`` >= 2 grains, every other shifted by half a spacing and one grain shorter; ``gap`` as above; disks and box."""
+    _requireCounts(2, columns=columns)
+    _requireCounts(1, rows=rows)
+    a, rise = _spacing(radius, gap), 0.5 * math.sqrt(3)
+    disks = [(a * (0.5 + 0.5 * (j % 2) + i), a * (0.5 + rise * j), radius) for j in range(rows) for i in range(columns - j % 2)]
+    return disks, (0.0, columns * a, 0.0, a * (1 + rise * (rows - 1)))
+
+
+def requirePositive(**values):
+    """Raise :class:`CaseError` that names the first of the values that is not a finite number > 0."""
+    for name, value in values.items():
+        if not (isinstance(value, (int, float)) and math.isfinite(value) and value > 0):
+            raise CaseError(f"{name} = {value!r}, allowed: a finite number > 0")
+
+
+def _requireCounts(least, **counts):
+    for name, value in counts.items():
+        if not (isinstance(value, int) and value >= least):
+            raise CaseError(f"{name} = {value!r}, allowed: a whole number >= {least}")
+
+
+def _spacing(radius, gap):
+    requirePositive(radius=radius)
+    if not (math.isfinite(gap) and gap > -2 * radius):
+        raise CaseError(f"gap = {gap} m, allowed: > -2 radius = {-2 * radius:g} m")
+    return 2 * radius + gap
+
+
+def alone(**attributes):
+    """Make the engine, with its ``attributes``, the only one of the scene: grains stand still, whatever forces they have; returns it."""
+    from yade import O
+    from yade.wrapper import SinglePhaseFlowEngine
+
+    engine = SinglePhaseFlowEngine(**{"timeIntegration": "implicit", **attributes})
+    O.engines = [engine]
+    return engine
+
+
+def fill(disks, box, **attributes):
+    """Put the disks into a new scene, with the engine :func:`alone`; returns the engine.
+
+    The scene is replaced. Throats have the constant shape factor 0.026 and steps are implicit unless ``attributes`` of the engine say
+    otherwise.
+    """
+    from yade import O
+
+    x, y, radii = np.array(disks, dtype=float).T
+    O.reset()
+    sediment.buildScene(sediment.Sediment(grainCount=len(disks), rMin=float(radii.min()), rMax=float(radii.max())), x, y, radii, box)
+    return alone(**{"conductanceLaw": "constantShape", **attributes})
+
+
+def advance(time, steps=1):
+    """Run ``steps`` equal steps that make up ``time`` [s]."""
+    from yade import O
+
+    O.dt = time / steps
+    sediment.advance(steps)
+
+
+def poresOf(engine):
+    """What the engine reports of its pores, as arrays."""
+    return {name: np.array(values) for name, values in engine.pores().items()}
