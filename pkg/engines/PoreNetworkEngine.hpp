@@ -40,6 +40,8 @@ protected:
 	virtual void advanceFluids() {}
 	/// Forces of the fluids per thickness [N/m], under cellPressures().
 	virtual capfrac::FluidForces forcesOfFluids() const { return capfrac::fluidForces(mesh, cellPressures(), reader.grains, reader.box); }
+	/// Called before a report outside of a step, when the network is up to date: for what only steps compute.
+	virtual void beforeReport() {}
 	/// Called last in the step, when the forces of the fluids are on the grains.
 	virtual void finishStep() {}
 	/// Called when the triangulation has changed, with the one before; contents and flags have been carried over.

@@ -72,7 +72,8 @@ py::dict PoreNetworkEngine::pyThroats()
 py::dict PoreNetworkEngine::pyForces()
 {
 	pyPrepare();
-	const auto forces = capfrac::fluidForces(mesh, cellPressures(), reader.grains, reader.box);
+	beforeReport();
+	const auto forces = forcesOfFluids();
 	py::dict   d;
 	for (std::size_t i = 0; i < forces.grains.size(); ++i)
 		d[reader.grainIds[i]] = asTuple(thickness * forces.grains[i]);

@@ -2,6 +2,8 @@
 #include "WallServoEngine.hpp"
 #include "Walls.hpp"
 
+#include "../geometry/FluidWeight.hpp"
+
 #include <pkg/common/Sphere.hpp>
 #include <pkg/dem/NewtonIntegrator.hpp>
 
@@ -103,6 +105,7 @@ capfrac::Skeleton SinglePhaseFlowEngine::skeleton() const
 	for (const auto& engine : scene->engines)
 		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) weight = newton->gravity, skeleton.damping = newton->damping;
 	scene->forces.sync();
+	const auto fluidWeight = weightOfFluid();
 	for (int i = 0; i < n; ++i) {
 		const auto& body  = *(*scene->bodies)[reader.grainIds[i]];
 		const auto& state = *body.state;
@@ -112,13 +115,14 @@ capfrac::Skeleton SinglePhaseFlowEngine::skeleton() const
 			if (!body.isDynamic() || state.blockedDOFs & State::axisDOF(axis)) continue;
 			skeleton.mass[2 * i + axis]  = state.mass;
 			skeleton.force[2 * i + axis] = scene->forces.getForce(body.id)[axis] + state.mass * weight[axis];
+			if (!fluidWeight.grains.empty()) skeleton.force[2 * i + axis] += thickness * (axis ? fluidWeight.grains[i].y : fluidWeight.grains[i].x);
 		}
 	}
-	addWalls(skeleton);
+	addWalls(skeleton, fluidWeight);
 	return skeleton;
 }
 
-void SinglePhaseFlowEngine::addWalls(capfrac::Skeleton& skeleton) const
+void SinglePhaseFlowEngine::addWalls(capfrac::Skeleton& skeleton, const capfrac::FluidForces& fluidWeight) const
 {
 	const int n = 2 * mesh.nGrains;
 	for (int w = 0; w < capfrac::nWalls; ++w) {
@@ -137,7 +141,7 @@ void SinglePhaseFlowEngine::addWalls(capfrac::Skeleton& skeleton) const
 			if (answers[w].mobility <= 0) continue;
 			skeleton.velocity[n + w] = 0;
 			skeleton.mass[n + w]     = scene->dt * (1 + skeleton.damping) / answers[w].mobility;
-			skeleton.force[n + w]    = answers[w].velocity / answers[w].mobility;
+			skeleton.force[n + w]    = answers[w].velocity / answers[w].mobility + thickness * capfrac::dot(fluidWeight.walls[w], capfrac::Box::outward(w));
 		}
 	}
 }
@@ -192,17 +196,21 @@ capfrac::FlowStep SinglePhaseFlowEngine::step(capfrac::FlowNetwork& network)
 	return capfrac::coupledStep(network, skeleton(), scene->dt, solver);
 }
 
+void SinglePhaseFlowEngine::describePores()
+{
+	voids = currentVoids();
+	groupPores();
+	gradients = capfrac::volumeGradients(mesh, reader.grains, reader.box, std::isfinite(grainBulkModulus) ? capfrac::Radii::vary : capfrac::Radii::fixed);
+}
+
 void SinglePhaseFlowEngine::advanceFluids()
 {
-	const auto voids = currentVoids();
-	groupPores(voids);
-	const bool compressible = std::isfinite(grainBulkModulus);
-	gradients = capfrac::volumeGradients(mesh, reader.grains, reader.box, compressible ? capfrac::Radii::vary : capfrac::Radii::fixed);
+	describePores();
 	capfrac::FlowStep done;
 	auto              network = flowNetwork();
 	try {
 		done = step(network);
-		if (compressible) compressGrains(compression(), done.pressure);
+		if (std::isfinite(grainBulkModulus)) compressGrains(compression(), done.pressure);
 	} catch (const capfrac::FlowError& e) {
 		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what() + placeOf(e.pore));
 	} catch (const std::exception& e) {
@@ -248,7 +256,30 @@ std::string SinglePhaseFlowEngine::placeOf(int pore) const
 
 capfrac::FluidForces SinglePhaseFlowEngine::forcesOfFluids() const
 {
-	return capfrac::fluidForces(gradients, cellPressures(), reader.grains.size());
+	auto       forces = capfrac::fluidForces(gradients, cellPressures(), reader.grains.size());
+	const auto weight = weightOfFluid();
+	for (std::size_t i = 0; i < weight.grains.size(); ++i)
+		forces.grains[i] += weight.grains[i];
+	for (int w = 0; w < capfrac::nWalls; ++w)
+		forces.walls[w] += weight.walls[w];
+	return forces;
+}
+
+capfrac::FluidForces SinglePhaseFlowEngine::weightOfFluid() const
+{
+	const capfrac::Vec2 weight { fluidDensity * gravity[0], fluidDensity * gravity[1] }, corner { reader.box.left, reader.box.bottom };
+	if (weight.x == 0 && weight.y == 0) return {};
+	// The excess pressures p - w x_p: p is added by the caller.
+	std::vector<double> atCentroid(mesh.cells.size());
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+		atCentroid[c] = -capfrac::dot(weight, poreCentre[poreOfCell[c]] - corner);
+	auto       forces = capfrac::fluidForces(gradients, atCentroid, reader.grains.size());
+	const auto rest   = capfrac::weightForces(mesh, reader.grains, reader.box, weight);
+	for (std::size_t i = 0; i < rest.grains.size(); ++i)
+		forces.grains[i] += rest.grains[i];
+	for (int w = 0; w < capfrac::nWalls; ++w)
+		forces.walls[w] += rest.walls[w];
+	return forces;
 }
 
 std::vector<double> SinglePhaseFlowEngine::cellPressures() const

@@ -26,6 +26,7 @@ public:
 protected:
 	void advanceFluids() override;
 	void startFluids() override;
+	void beforeReport() override { describePores(); }
 	void followRemesh(const capfrac::Triangulation& before) override;
 	void checkAttributes() const override;
 	bool drained() const override { return false; }
@@ -36,13 +37,17 @@ private:
 	enum class Scheme { undrainedStable, implicit, explicitEuler };
 
 	void                 guardAttributes();
-	void                 groupPores(const std::vector<double>& voids);
+	/// Pores, their volumes and centroids, and how they answer to the grains, as they are now.
+	void                 describePores();
+	void                 groupPores();
 	capfrac::FlowNetwork flowNetwork() const;
 	void                 addThroats(capfrac::FlowNetwork& network) const;
 	void                 addBoundaries(capfrac::FlowNetwork& network) const;
 	void                 fixPressure(capfrac::FlowNetwork& network, int pore, double pressure, const std::string& owner) const;
 	capfrac::Skeleton    skeleton() const;
-	void                 addWalls(capfrac::Skeleton& skeleton) const;
+	void                 addWalls(capfrac::Skeleton& skeleton, const capfrac::FluidForces& fluidWeight) const;
+	/// Forces of the fluid's weight per thickness [N/m], to be added to those of the pores' pressures.
+	capfrac::FluidForces weightOfFluid() const;
 	std::string          placeOf(int pore) const;
 	void                 checkMotion(const Body& body) const;
 	capfrac::GrainCompression compression() const;
@@ -57,7 +62,8 @@ private:
 	std::vector<int>          poreOfCell;
 	std::vector<capfrac::Vec2> poreCentre;
 	std::vector<double>       poreVolume;
-	capfrac::VolumeGradients  gradients; ///< of this step
+	std::vector<double>       voids;     ///< of the cells [m^2]
+	capfrac::VolumeGradients  gradients; ///< of the cells
 	capfrac::Accepted         accepted;
 
 public:

@@ -13,7 +13,7 @@ namespace yade {
 
 /// Pores are the domains; one that grains have all but closed is joined to the neighbour across its widest throat, because
 /// a pressure K_f (m/V - 1) means nothing where V goes to zero.
-void SinglePhaseFlowEngine::groupPores(const std::vector<double>& voids)
+void SinglePhaseFlowEngine::groupPores()
 {
 	const auto         volumes  = capfrac::sumOverDomains(domains, voids);
 	const Real         smallest = smallestRadius(), least = closedPore * M_PI * smallest * smallest;
@@ -46,13 +46,16 @@ void SinglePhaseFlowEngine::groupPores(const std::vector<double>& voids)
 	poreOfCell.resize(mesh.cells.size());
 	poreCentre.assign(nPores, {});
 	poreVolume.assign(nPores, 0);
+	std::vector<double> area(nPores, 0);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-		const int p   = poreOfCell[c] = number[joined.find(domains.ofCell[c])];
+		const int  p = poreOfCell[c] = number[joined.find(domains.ofCell[c])];
+		const auto moments           = capfrac::voidMoments(mesh, static_cast<int>(c), reader.grains, reader.box);
 		poreVolume[p] += thickness * voids[c];
-		poreCentre[p] += thickness * voids[c] * capfrac::cellCentre(mesh, static_cast<int>(c), reader.grains, reader.box);
+		poreCentre[p] += moments.first;
+		area[p] += moments.area;
 	}
 	for (int p = 0; p < nPores; ++p)
-		poreCentre[p] = (1 / poreVolume[p]) * poreCentre[p];
+		poreCentre[p] = capfrac::Vec2 { reader.box.left, reader.box.bottom } + (1 / area[p]) * poreCentre[p];
 }
 
 capfrac::FlowNetwork SinglePhaseFlowEngine::flowNetwork() const

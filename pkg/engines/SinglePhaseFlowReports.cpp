@@ -12,7 +12,7 @@ namespace py = boost::python;
 py::dict SinglePhaseFlowEngine::pyPores()
 {
 	pyPrepare();
-	if (poreOfCell.size() != mesh.cells.size()) groupPores(currentVoids());
+	describePores();
 	std::vector<Real> water(nPores, 0);
 	std::vector<int>  cells(nPores, 0);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -44,7 +44,7 @@ py::dict SinglePhaseFlowEngine::pyInflow()
 Real SinglePhaseFlowEngine::pyTimeStepLimit()
 {
 	pyPrepare();
-	groupPores(currentVoids());
+	describePores();
 	return capfrac::explicitTimeStepLimit(flowNetwork());
 }
 

@@ -46,6 +46,57 @@ namespace {
 		return 0.5 * twice;
 	}
 
+	/// First moment of half of a disk's part beyond a chord at `distance`, on one side of the axis through its centre: x along
+	/// the axis, y away from it, about the centre [m^3].
+	Vec2 halfSegmentMoment(double r, double distance)
+	{
+		if (distance >= r) return {};
+		const double d = std::max(distance, -r), halfChord = std::sqrt((r - d) * (r + d));
+		return { halfChord * halfChord * halfChord / 3, (r - d) * (r - d) * (2 * r + d) / 6 };
+	}
+
+	/// Area and first moment about the origin of half of the overlap of grain `i` with a grain or wall, the half that lies on the side of
+	/// `side`, a unit vector square to the line of centres.
+	VoidMoments halfOverlap(const Triangulation& mesh, int i, int other, Vec2 side, const std::vector<Disk>& grains, const Box& box)
+	{
+		VoidMoments half;
+		auto        add = [&](const Disk& disk, double distance, Vec2 axis) {
+                        const Vec2   moment = halfSegmentMoment(disk.radius, distance);
+                        const double area   = 0.5 * segmentArea(disk.radius, distance);
+                        half.area += area;
+                        half.first += area * disk.centre + moment.x * axis + moment.y * side;
+		};
+		const Disk& a = grains[i];
+		if (mesh.isWall(other)) {
+			add(a, box.distance(mesh.wallOf(other), a.centre), Box::outward(mesh.wallOf(other)));
+			return half;
+		}
+		const Disk&  b        = grains[other];
+		const double distance = norm(b.centre - a.centre);
+		if (distance >= a.radius + b.radius) return half;
+		if (distance <= std::abs(a.radius - b.radius)) {
+			const Disk& inner = a.radius < b.radius ? a : b;
+			add(inner, -inner.radius, {});
+			return half;
+		}
+		const Vec2   axis = (1 / distance) * (b.centre - a.centre);
+		const double ha   = chordDistance(a.radius, b.radius, distance);
+		add(a, ha, axis);
+		add(b, distance - ha, -1 * axis);
+		return half;
+	}
+
+	VoidMoments polygonMoments(const std::vector<Vec2>& p)
+	{
+		VoidMoments sum;
+		for (std::size_t k = 1; k + 1 < p.size(); ++k) {
+			const double area = 0.5 * cross(p[k] - p[0], p[k + 1] - p[0]);
+			sum.area += area;
+			sum.first += area / 3 * (p[0] + p[k] + p[k + 1]);
+		}
+		return sum;
+	}
+
 	/// Length of a wall that belongs to a cell, measured so that it is positive for a cell that is not turned over.
 	double wallSpan(const Triangulation& mesh, const Cell& cell, int k, const std::vector<Disk>& grains, const Box& box)
 	{
@@ -145,6 +196,27 @@ std::vector<double> voidAreas(const Triangulation& mesh, const std::vector<Disk>
 	for (std::size_t c = 0; c < areas.size(); ++c)
 		areas[c] = voidArea(mesh, static_cast<int>(c), grains, box);
 	return areas;
+}
+
+VoidMoments voidMoments(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box)
+{
+	const auto& v     = mesh.cells[cell].vertex;
+	VoidMoments found = polygonMoments(cellPolygon(mesh, cell, grains, box));
+	auto        add   = [&](const VoidMoments& part) { found.area += part.area, found.first += part.first; };
+	for (int k = 0; k < 3; ++k) {
+		const int i = v[k], next = v[(k + 1) % 3], previous = v[(k + 2) % 3];
+		if (mesh.isWall(i)) continue;
+		const Vec2 x  = grains[i].centre;
+		const Vec2 to = seenFrom(mesh, i, next, grains, box) - x, from = seenFrom(mesh, i, previous, grains, box) - x;
+		const Vec2 toSide = turned((1 / norm(to)) * to), fromSide = turned((1 / norm(from)) * from);
+		const double r = grains[i].radius, sector = 0.5 * angleBetween(to, from) * r * r;
+		found.area -= sector;
+		found.first -= sector * x + r * r * r / 3 * (toSide - fromSide); // the integral of r^2 (cos, sin)/3 over the angle
+		add(halfOverlap(mesh, i, next, toSide, grains, box)); // the cell is on the left of i -> next
+		if (mesh.isWall(previous)) add(halfOverlap(mesh, i, previous, -1 * fromSide, grains, box));
+	}
+	found.first -= found.area * Vec2 { box.left, box.bottom };
+	return found;
 }
 
 FluidForces fluidForces(

@@ -36,6 +36,16 @@ double voidArea(const Triangulation& mesh, int cell, const std::vector<Disk>& gr
 /// Void areas of all cells [m^2].
 std::vector<double> voidAreas(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box);
 
+/// Area [m^2] and first moment [m^3] of a void; the moment is taken about the lower left corner of the box.
+struct VoidMoments {
+	double area = 0;
+	Vec2   first;
+};
+
+/// Area and first moment of the void of one cell. Sums over the cells of a pore, divided, give the centroid of its void, whatever
+/// the cells that it is cut into.
+VoidMoments voidMoments(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
+
 /// Centre of a cell, for reports and pictures [m]: mean of its corners (grain centres, feet, box corners).
 Vec2 cellCentre(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
 

@@ -1,7 +1,7 @@
 """Water between grains that are set by hand, run by `SinglePhaseFlowEngine` itself, against formulas in closed form.
 
 All throats have the conductance of Eqs. 8 and 9 of Jain & Juanes (2008), G = C/L, with the constant shape factor 0.026, which
-:func:`capfrac.lab.lattices.conductance` writes out anew. L is the distance of the pores' centres; a wall mirrors, so that a
+:func:`capfrac.lab.lattices.conductance` writes out anew. L is the distance of the pores' centroids; a wall mirrors, so that a
 grain that touches it leaves half a throat. A contact with d = 0 separates two pores and lets water pass.
 
 * Two pores on either side of a column of touching grains: p1 - p2 decays as exp(-G K_f (1/V1 + 1/V2) t).
@@ -15,13 +15,13 @@ import math
 import numpy as np
 
 from capfrac.lab import lattices, units
-from capfrac.lab.handmade import advance, column, fill, poresOf, requirePositive
+from capfrac.lab.handmade import advance, besideColumn, column, fill, poresOf, requirePositive
 from capfrac.lab.lattices import conductance, orders
 from capfrac.lab.run import LabRun
 
 #: Numbers of time steps in the decay time of the two pores.
 STEPS = (5, 10, 20, 40, 80, 160)
-#: Columns of one to six grains, whose throats lie side by side: radii over the smallest. Symmetric, so that both pores have their centres half-way up.
+#: Columns of one to six grains, whose throats lie side by side: radii over the smallest. Symmetric, so that both pores have their centroids half-way up.
 COLUMNS = ((1,), (1, 1), (1, 2, 1), (2, 1, 1, 2), (1, 2, 3, 2, 1), (2, 1, 3, 3, 1, 2))
 
 
@@ -95,8 +95,8 @@ def twoPores(radius=1e-3, bulkModulus=1e7, viscosity=1e-3, pressure=1e3):
     width, height, place = 12 * radius, 2 * sum(radii), 3.6 * radius
     solid = 0.5 * math.pi * sum(r * r for r in radii)
     volumes = [place * height - solid, (width - place) * height - solid]
-    # A cell between column and wall has its centre half-way, so the pores' centres are half a width apart.
-    rate = columnConductance(radii, viscosity) / (0.5 * width) * bulkModulus * (1 / volumes[0] + 1 / volumes[1])
+    distance = width - besideColumn(place, radii) - besideColumn(width - place, radii)
+    rate = columnConductance(radii, viscosity) / distance * bulkModulus * (1 / volumes[0] + 1 / volumes[1])
     fluid = {"bulkModulus": bulkModulus, "viscosity": viscosity}
     found = {"rate": rate, "volumes": volumes, "steps": list(STEPS)}
     for scheme, factor in (("implicit", lambda dt: 1 / (1 + rate * dt)), ("explicit", lambda dt: 1 - rate * dt)):
@@ -135,7 +135,7 @@ def network(radius=1e-3, viscosity=1e-3, pressure=1e3):
     ``parallel``: one column, its throats side by side, of one to six grains of different size: ``radii`` (over the smallest, ``radius`` [m]), ``flow`` and
     ``expectedFlow``.
     ``errors``: largest relative difference of the ``series`` and ``parallel`` flows, largest difference of a ``pressure`` (over the whole) and of a
-    pore's ``place`` (over the width, where it is known: half-way between equal columns).
+    pore's ``place`` (over the width, where it is known: between equal columns).
     """
     requirePositive(radius=radius, viscosity=viscosity, pressure=pressure)
     fluid = {"bulkModulus": math.inf, "viscosity": viscosity, "wallPressures": [pressure, 0.0, math.nan, math.nan]}
@@ -160,7 +160,8 @@ def _series(name, numbers, places, radius, pressure, fluid):
     order = np.argsort(pores["x"])
     centre, edges = pores["x"][order], np.array([0, *columns, width])
     middle, alike = 0.5 * (edges[1:] + edges[:-1]), len(set(numbers)) == 1
-    # Between equal columns a pore is its own image and its centre half-way. Between different ones the engine's centres are taken.
+    middle[0], middle[-1] = besideColumn(columns[0], radii[0]), width - besideColumn(width - columns[-1], radii[-1])
+    # Between equal columns a pore is its own image and its centroid half-way. Between different ones the engine's centroids are taken.
     distance = np.diff(middle) if alike else np.hypot(np.diff(centre), np.diff(pores["y"][order]))
     resistance = distance / [columnConductance(stack, fluid["viscosity"]) for stack in radii]
     expected = 1 - np.concatenate([[0], np.cumsum(resistance)]) / resistance.sum()
@@ -172,6 +173,7 @@ def _series(name, numbers, places, radius, pressure, fluid):
 def _parallel(shape, radius, pressure, fluid):
     radii = [radius * s for s in shape]
     width = 16 * radius
+    distance = width - besideColumn(0.4 * width, radii) - besideColumn(0.6 * width, radii)
     engine = fill(column(0.4 * width, radii), (0, width, 0, 2 * sum(radii)), **fluid)
     advance(1.0)
-    return {"radii": list(shape), "flow": engine.inflow()["left"], "expectedFlow": columnConductance(radii, fluid["viscosity"]) * pressure / (0.5 * width)}
+    return {"radii": list(shape), "flow": engine.inflow()["left"], "expectedFlow": columnConductance(radii, fluid["viscosity"]) * pressure / distance}

@@ -18,6 +18,14 @@ def column(place, radii):
     return [(place, float(y), r) for y, r in zip(centres, radii)]
 
 
+def besideColumn(distance, radii):
+    """How far from a wall the centroid of the void lies between the wall and a :func:`column` at ``distance`` of touching grains of ``radii``, all in m."""
+    height, half = 2 * sum(radii), [0.5 * math.pi * r**2 for r in radii]
+    # A half-disk of radius r has its centroid 4 r/(3 pi) from its straight side.
+    moment = 0.5 * distance**2 * height - sum(area * (distance - 4 * r / (3 * math.pi)) for area, r in zip(half, radii))
+    return moment / (distance * height - sum(half))
+
+
 def squareLattice(across, along, radius, gap=0.0):
     """``across`` times ``along`` grains at the corners of squares, with ``gap`` [m] > -2 radius between neighbours; disks and box."""
     _requireCounts(1, across=across, along=along)

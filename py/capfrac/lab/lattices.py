@@ -19,7 +19,7 @@ import math
 import numpy as np
 
 from capfrac.errors import CaseError
-from capfrac.lab.handmade import advance, fill, poresOf, requirePositive, squareLattice, triangularLattice
+from capfrac.lab.handmade import advance, besideColumn, fill, poresOf, requirePositive, squareLattice, triangularLattice
 
 #: Shape factor of the law 'constantShape' [-].
 SHAPE = 0.026
@@ -121,13 +121,14 @@ def pulseProfile(x, length):
 def pulseError(x, length, spacing, fourier):
     """What pores ``spacing`` a [m] apart and implicit steps add to :func:`pulseProfile` [-], to leading order; ``fourier`` D dt/a^2 [-].
 
-    In the interior they solve p_t = D p_xx + a^2 D (1/12 + fourier/2) p_xxxx. The first pore lies 3a/4 from the end, and in the Laplace
-    transform of the chain, (4/(3 + e^-q)) e^(-q (x/a + 1/4))/s with s a^2/D = 2 cosh q - 2, the end leaves an impulse of -(a^2/D)/96 besides. At
-    t = length^2/(4 D) both together are (a/length)^2 ((1/12 + fourier/2) erfc''''(eta)/4 - eta exp(-eta^2)/(24 sqrt(pi))), eta = x/length.
+    In the interior they solve p_t = D p_xx + a^2 D (1/12 + fourier/2) p_xxxx. The first pore lies beta a from the end, and in the Laplace
+    transform of the chain, e^(q (beta - x/a))/(1 + beta (e^q - 1))/s with s a^2/D = 2 cosh q - 2, the end leaves an impulse of (a^2/D) (1/12 - beta (1 - beta)/2)
+    besides. At t = length^2/(4 D) both together are (a/length)^2 ((1/12 + fourier/2) erfc''''(eta)/4 + (1/3 - 2 beta (1 - beta)) eta exp(-eta^2)/sqrt(pi)),
+    eta = x/length. 1 - beta is the place of the centroid of the void between a wall and the first row, over a.
     """
-    eta = np.atleast_1d(x) / length
+    eta, beta = np.atleast_1d(x) / length, 1 - besideColumn(0.5, [0.5])
     fourth = 2 / math.sqrt(math.pi) * (8 * eta**3 - 12 * eta) * np.exp(-(eta**2))
-    return (spacing / length) ** 2 * ((1 / 12 + fourier / 2) / 4 * fourth - eta * np.exp(-(eta**2)) / (24 * math.sqrt(math.pi)))
+    return (spacing / length) ** 2 * ((1 / 12 + fourier / 2) / 4 * fourth + (1 / 3 - 2 * beta * (1 - beta)) * eta * np.exp(-(eta**2)) / math.sqrt(math.pi))
 
 
 def pulse(length=0.02, bulkModulus=1e7, viscosity=1e-3, pressure=1e3, start=2e3, spacings=SPACINGS, fourier=FOURIER):
