@@ -84,6 +84,11 @@ void SceneReader::read(const Scene& from)
 		}
 		grains[i] = { { pos[0], pos[1] }, radius };
 	}
+	readWalls(from);
+}
+
+void SceneReader::readWalls(const Scene& from)
+{
 	std::array<Real, capfrac::nWalls> at;
 	for (int w = 0; w < capfrac::nWalls; ++w) {
 		const auto& body = (*from.bodies)[wallIds[w]];

@@ -25,6 +25,8 @@ struct SceneReader {
 	void find(const Scene& from);
 	/// Reads positions and radii of the bodies found. Throws when one of them is gone or has left the plane.
 	void read(const Scene& from);
+	/// Reads the walls alone.
+	void readWalls(const Scene& from);
 	/// Adds forces [N/m, times `thickness`] to grains and walls.
 	void addForces(Scene& to, const capfrac::FluidForces& forces, Real thickness) const;
 	/// The vertex of a body; -1 where it is none.

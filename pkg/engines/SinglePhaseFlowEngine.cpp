@@ -198,8 +198,13 @@ capfrac::FlowStep SinglePhaseFlowEngine::step(capfrac::FlowNetwork& network)
 
 void SinglePhaseFlowEngine::describePores()
 {
-	voids = currentVoids();
-	groupPores();
+	std::vector<capfrac::VoidMoments> moments(mesh.cells.size());
+	voids.resize(moments.size());
+	for (std::size_t c = 0; c < moments.size(); ++c) {
+		moments[c] = capfrac::voidMoments(mesh, static_cast<int>(c), reader.grains, reader.box);
+		voids[c]   = moments[c].area;
+	}
+	groupPores(moments);
 	gradients = capfrac::volumeGradients(mesh, reader.grains, reader.box, std::isfinite(grainBulkModulus) ? capfrac::Radii::vary : capfrac::Radii::fixed);
 }
 
@@ -228,21 +233,15 @@ void SinglePhaseFlowEngine::advanceFluids()
 	massDefect += done.ledger.defect();
 	solverIterations = done.iterations;
 	nFactorizations += done.factored;
-	bookInflow(network, done);
+	bookInflow(done);
 }
 
-void SinglePhaseFlowEngine::bookInflow(const capfrac::FlowNetwork& network, const capfrac::FlowStep& done)
+void SinglePhaseFlowEngine::bookInflow(const capfrac::FlowStep& done)
 {
 	for (int w = 0; w < capfrac::nWalls; ++w) {
-		wallInflow[w] = wallFluxes[w];
-		if (math::isnan(wallPressures[w])) continue;
-		std::vector<char> counted(network.pores.size(), 0);
-		wallInflow[w] = 0;
-		for (const auto& s : wallStretches(mesh, domains, reader, w)) {
-			const int pore = poreOfCell[domains.first[s.domain]];
-			if (!counted[pore]) wallInflow[w] += done.supply[pore];
-			counted[pore] = 1;
-		}
+		wallInflow[w] = math::isnan(wallPressures[w]) ? wallFluxes[w] : 0;
+		for (int pore : poresAlong[w])
+			wallInflow[w] += done.supply[pore];
 	}
 }
 

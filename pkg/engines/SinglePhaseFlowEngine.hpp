@@ -39,7 +39,8 @@ private:
 	void                 guardAttributes();
 	/// Pores, their volumes and centroids, and how they answer to the grains, as they are now.
 	void                 describePores();
-	void                 groupPores();
+	void                 groupPores(const std::vector<capfrac::VoidMoments>& moments);
+	void                 findPoresAlongWalls();
 	capfrac::FlowNetwork flowNetwork() const;
 	void                 addThroats(capfrac::FlowNetwork& network) const;
 	void                 addBoundaries(capfrac::FlowNetwork& network) const;
@@ -53,7 +54,7 @@ private:
 	capfrac::GrainCompression compression() const;
 	void                 compressGrains(const capfrac::GrainCompression& compression, const std::vector<double>& pressure);
 	capfrac::FlowStep    step(capfrac::FlowNetwork& network);
-	void                 bookInflow(const capfrac::FlowNetwork& network, const capfrac::FlowStep& done);
+	void                 bookInflow(const capfrac::FlowStep& done);
 
 	Scheme                    scheme = Scheme::undrainedStable;
 	capfrac::ConductanceLaw   law    = capfrac::ConductanceLaw::fourSpheres;
@@ -63,6 +64,7 @@ private:
 	std::vector<capfrac::Vec2> poreCentre;
 	std::vector<double>       poreVolume;
 	std::vector<double>       voids;     ///< of the cells [m^2]
+	std::array<std::vector<int>, capfrac::nWalls> poresAlong; ///< those at a prescribed pressure along each wall
 	capfrac::VolumeGradients  gradients; ///< of the cells
 	capfrac::Accepted         accepted;
 

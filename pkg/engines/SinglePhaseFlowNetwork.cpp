@@ -7,13 +7,14 @@
 
 #include <pkg/common/NormShearPhys.hpp>
 
+#include <algorithm>
 #include <map>
 
 namespace yade {
 
 /// Pores are the domains; one that grains have all but closed is joined to the neighbour across its widest throat, because
 /// a pressure K_f (m/V - 1) means nothing where V goes to zero.
-void SinglePhaseFlowEngine::groupPores()
+void SinglePhaseFlowEngine::groupPores(const std::vector<capfrac::VoidMoments>& moments)
 {
 	const auto         volumes  = capfrac::sumOverDomains(domains, voids);
 	const Real         smallest = smallestRadius(), least = closedPore * M_PI * smallest * smallest;
@@ -48,14 +49,28 @@ void SinglePhaseFlowEngine::groupPores()
 	poreVolume.assign(nPores, 0);
 	std::vector<double> area(nPores, 0);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-		const int  p = poreOfCell[c] = number[joined.find(domains.ofCell[c])];
-		const auto moments           = capfrac::voidMoments(mesh, static_cast<int>(c), reader.grains, reader.box);
-		poreVolume[p] += thickness * voids[c];
-		poreCentre[p] += moments.first;
-		area[p] += moments.area;
+		const int p = poreOfCell[c] = number[joined.find(domains.ofCell[c])];
+		poreVolume[p] += thickness * moments[c].area;
+		poreCentre[p] += moments[c].first;
+		area[p] += moments[c].area;
 	}
 	for (int p = 0; p < nPores; ++p)
 		poreCentre[p] = capfrac::Vec2 { reader.box.left, reader.box.bottom } + (1 / area[p]) * poreCentre[p];
+	findPoresAlongWalls();
+}
+
+void SinglePhaseFlowEngine::findPoresAlongWalls()
+{
+	for (int w = 0; w < capfrac::nWalls; ++w) {
+		poresAlong[w].clear();
+		if (math::isnan(wallPressures[w])) continue;
+		for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+			const auto& v = mesh.cells[c].vertex;
+			if (std::find(v.begin(), v.end(), mesh.nGrains + w) != v.end()) poresAlong[w].push_back(poreOfCell[c]);
+		}
+		std::sort(poresAlong[w].begin(), poresAlong[w].end());
+		poresAlong[w].erase(std::unique(poresAlong[w].begin(), poresAlong[w].end()), poresAlong[w].end());
+	}
 }
 
 capfrac::FlowNetwork SinglePhaseFlowEngine::flowNetwork() const
@@ -116,17 +131,15 @@ void SinglePhaseFlowEngine::fixPressure(capfrac::FlowNetwork& network, int pore,
 void SinglePhaseFlowEngine::addBoundaries(capfrac::FlowNetwork& network) const
 {
 	for (int w = 0; w < capfrac::nWalls; ++w) {
-		if (math::isnan(wallPressures[w]) && wallFluxes[w] == 0) continue;
+		for (int pore : poresAlong[w])
+			fixPressure(network, pore, wallPressures[w], std::string("the ") + wallName(w) + " wall");
+		if (wallFluxes[w] == 0) continue;
 		const auto stretches = wallStretches(mesh, domains, reader, w);
 		Real       length    = 0;
 		for (const auto& s : stretches)
 			length += s.to - s.from;
-		for (const auto& s : stretches) {
-			const int pore = poreOfCell[domains.first[s.domain]];
-			if (!math::isnan(wallPressures[w])) fixPressure(network, pore, wallPressures[w], std::string("the ") + wallName(w) + " wall");
-			else
-				network.pores[pore].source += wallFluxes[w] * (s.to - s.from) / length;
-		}
+		for (const auto& s : stretches)
+			network.pores[poreOfCell[domains.first[s.domain]]].source += wallFluxes[w] * (s.to - s.from) / length;
 	}
 	for (const auto& p : pointPressures)
 		fixPressure(network, poreOfCell[cellAt(mesh, reader, { p[0], p[1] })], p[2], "pointPressures");

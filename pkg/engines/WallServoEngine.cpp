@@ -55,7 +55,7 @@ void WallServoEngine::measure()
 	try {
 		if (reader.nBodies != scene->bodies->size()) reader.find(*scene);
 		else
-			reader.read(*scene);
+			reader.readWalls(*scene);
 	} catch (const std::runtime_error& e) {
 		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what());
 	}
@@ -73,16 +73,19 @@ void WallServoEngine::measure()
 		if (task(w) == Task::stress) error = math::max(error, math::abs(stress[w] - target(w)) / (high > 0 ? high : 1));
 }
 
-std::array<Real, capfrac::nWalls> WallServoEngine::contactStiffness() const
+const std::array<Real, capfrac::nWalls>& WallServoEngine::contactStiffness()
 {
-	std::array<Real, capfrac::nWalls> stiffness {};
+	if (stiffnessOf == scene->iter) return stiffnessNow;
+	stiffnessOf = scene->iter;
+	stiffnessNow.fill(0);
 	for (const auto& interaction : *scene->interactions) {
 		if (!interaction->isReal()) continue;
-		const auto* phys = dynamic_cast<const NormPhys*>(interaction->phys.get());
-		for (int w = 0; phys && w < capfrac::nWalls; ++w)
-			if (interaction->getId1() == reader.wallIds[w] || interaction->getId2() == reader.wallIds[w]) stiffness[w] += phys->kn;
+		for (int w = 0; w < capfrac::nWalls; ++w) {
+			if (interaction->getId1() != reader.wallIds[w] && interaction->getId2() != reader.wallIds[w]) continue;
+			if (const auto* phys = dynamic_cast<const NormPhys*>(interaction->phys.get())) stiffnessNow[w] += phys->kn;
+		}
 	}
-	return stiffness;
+	return stiffnessNow;
 }
 
 void WallServoEngine::action()
@@ -108,7 +111,7 @@ std::array<WallServoEngine::Answer, capfrac::nWalls> WallServoEngine::answers()
 	const auto reported = stress; // the stresses without the fluid are nobody else's business
 	const auto off      = error;
 	measure();
-	const auto                          stiffness = contactStiffness();
+	const auto&                         stiffness = contactStiffness();
 	std::array<Answer, capfrac::nWalls> found {};
 	for (int w = 0; w < capfrac::nWalls; ++w) {
 		const auto& state   = *(*scene->bodies)[reader.wallIds[w]]->state;

@@ -32,8 +32,8 @@ private:
 	Task task(int wall) const;
 	/// Requested stress on a wall [Pa], from the stresses measured in this step.
 	Real target(int wall) const;
-	/// Sum of the stiffness of each wall's contacts [N/m].
-	std::array<Real, capfrac::nWalls> contactStiffness() const;
+	/// Sum of the stiffness of each wall's contacts [N/m]; counted once a step.
+	const std::array<Real, capfrac::nWalls>& contactStiffness();
 	/// Outward force on a wall beyond the requested one [N].
 	Real excess(int wall) const;
 	/// Outward speed that brings a wall nearer to its stress [m/s]; `stiffness` of its contacts [N/m].
@@ -41,6 +41,9 @@ private:
 
 	SceneReader       reader;
 	capfrac::Accepted accepted;
+
+	std::array<Real, capfrac::nWalls> stiffnessNow {};
+	long                              stiffnessOf = -1; ///< the iteration that it is of
 
 public:
 	// clang-format off

@@ -82,6 +82,33 @@ namespace {
 		return yields;
 	}
 
+	/// Whether the entries [from, to) are followed by as many of the next degree of freedom in the same pores: those of a grain are.
+	bool hasTwin(const std::vector<VolumeEntry>& b, std::size_t from, std::size_t to)
+	{
+		const std::size_t size = to - from;
+		if (to + size > b.size() || (to + size < b.size() && b[to + size].freedom == b[to].freedom)) return false;
+		for (std::size_t k = from; k < to; ++k)
+			if (b[k + size].pore != b[k].pore || b[k + size].freedom != b[from].freedom + 1) return false;
+		return true;
+	}
+
+	/// Adds dt (1 + lambda) B M^-1 B^T. Both degrees of freedom of a grain go into one entry for each pair of its pores.
+	void addMobility(Assembly& assembly, const std::vector<VolumeEntry>& b, const Skeleton& skeleton, double dt)
+	{
+		std::size_t done = 0; // up to here twins have been added already
+		forEachFree(b, skeleton, [&](std::size_t from, std::size_t to) {
+			if (from < done) return;
+			const std::size_t size = to - from;
+			const double      mobility = dt * (1 + skeleton.damping) / skeleton.mass[b[from].freedom];
+			const bool        twin     = hasTwin(b, from, to) && std::isfinite(skeleton.mass[b[to].freedom]);
+			const double      other    = twin ? dt * (1 + skeleton.damping) / skeleton.mass[b[to].freedom] : 0;
+			if (twin) done = to + size;
+			for (std::size_t k = from; k < to; ++k)
+				for (std::size_t l = from; l <= k; ++l)
+					assembly.add(b[k].pore, b[l].pore, mobility * b[k].value * b[l].value + (twin ? other * b[k + size].value * b[l + size].value : 0));
+		});
+	}
+
 	/// Whether grains or boundaries set the pressure of every cluster of an incompressible fluid.
 	void checkDetermined(const FlowNetwork& network, const std::vector<VolumeEntry>& b, const Skeleton& skeleton)
 	{
@@ -157,12 +184,7 @@ FlowStep coupledStep(FlowNetwork& network, const Skeleton& skeleton, double dt, 
 		assembly.addRight(e.pore, -e.value * dryVelocity);
 		step.volume[e.pore] += dt * e.value * dryVelocity;
 	}
-	forEachFree(b, skeleton, [&](std::size_t from, std::size_t to) {
-		const double mobility = dt * (1 + skeleton.damping) / skeleton.mass[b[from].freedom];
-		for (std::size_t k = from; k < to; ++k)
-			for (std::size_t l = from; l <= k; ++l)
-				assembly.add(b[k].pore, b[l].pore, mobility * b[k].value * b[l].value);
-	});
+	addMobility(assembly, b, skeleton, dt);
 	assembly.solve(solver, step);
 	forEachFree(b, skeleton, [&](std::size_t from, std::size_t to) {
 		double force = 0;

@@ -42,7 +42,7 @@ struct VoidMoments {
 	Vec2   first;
 };
 
-/// Area and first moment of the void of one cell. Sums over the cells of a pore, divided, give the centroid of its void, whatever
+/// Area (to the last bit that of voidArea()) and first moment of the void of one cell. Sums over the cells of a pore, divided, give the centroid of its void, whatever
 /// the cells that it is cut into.
 VoidMoments voidMoments(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
 

@@ -244,6 +244,7 @@ TEST(VoidMoments, AddUpToTheBoxLessTheDisksPlusTheirOverlaps)
 		Vec2        expected { 0.5 * box.area() * box.width(), 0.5 * box.area() * box.height() };
 		for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c) {
 			const auto one = voidMoments(mesh, c, grains, box);
+			EXPECT_EQ(one.area, voidArea(mesh, c, grains, box)) << "cell " << c;
 			sum.area += one.area, sum.first += one.first;
 		}
 		for (const Disk& g : grains)

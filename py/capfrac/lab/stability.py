@@ -57,10 +57,10 @@ def shake(sample, bulkModulus, scheme="undrainedStable", steps=100_000, stress=1
         while data["end"] == "" and data["steps"][-1] < steps:
             try:
                 sediment.advance(max(1, math.ceil(steps / ROWS)))
-            except (RuntimeError, ValueError) as problem:
+                _rowOfShaking(bulkModulus, data)
+            except (RuntimeError, ValueError) as problem:  # a grain has left the box: the network says which
                 data["end"], data["stepsDone"] = str(problem), O.iter - data["begin"]
                 return
-            _rowOfShaking(bulkModulus, data)
             run.report(f"shaking, K_f = {bulkModulus}: step {data['steps'][-1]}, energy {data['energy'][-1]:.4g} of that at the start")
             run.tick()
 
