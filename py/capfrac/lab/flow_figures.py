@@ -96,7 +96,7 @@ def drawClosedForms(result, path):
         grid = {"left": 0.05, "right": 0.99, "bottom": 0.095, "top": 0.945, "wspace": 0.36, "hspace": 0.36}
         panels = figure.subplots(2, 4, gridspec_kw=grid).flat
         drawn = (("two pores, a column between them", _drawDecay), ("two pores: order in time", _drawOrderInTime), ("throats in series", _drawSeries),
-                 ("throats in parallel: columns of radii", _drawParallel), ("lattices", _drawLattices), ("pressure set at an end", _drawPulse),
+                 ("in parallel: columns of radii", _drawParallel), ("lattices", _drawLattices), ("pressure set at an end", _drawPulse),
                  ("the same: order in spacing", _drawOrderInSpacing), ("the same in other units", _drawUnits))
         for axes, (title, draw) in zip(panels, drawn):
             draw(axes, result)

@@ -6,7 +6,7 @@ Stresses, strains and pressures are positive in compression; x is horizontal, y 
     zeta = p/M - b_x eps_x - b_y eps_y,          d zeta/dt = (k/mu) grad^2 p
 
 The isotropic case is C_xx = C_yy = K + G, C_xy = K - G. Sources: Terzaghi (1925); Mandel (1953); Abousleiman et al. (1996) for
-the orthotropic material; derivation in doc/flow.md.
+the orthotropic material; derivation in doc/flow_verification.md.
 """
 
 import math
