@@ -15,7 +15,7 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab import undrained, water_figures
+from capfrac.lab.water import figures, undrained
 
 
 def main(folder=None, grainCount=100, bulkModuli=(1e7, 2.2e9), strain=0.01):
@@ -23,7 +23,7 @@ def main(folder=None, grainCount=100, bulkModuli=(1e7, 2.2e9), strain=0.01):
     for bulkModulus in bulkModuli:
         result = found[bulkModulus] = undrained.undrained(sample, strain=strain, bulkModulus=bulkModulus)
         print(f"K_f = {bulkModulus:.3g} Pa: b = {result['biot']:.3f} +- {result['biotError']:.3f}, misfit {result['misfit']:.1%}, water lost {result['ledger']:.1g}")
-        water_figures.drawUndrained(result, f"{folder or '.'}/undrained-{bulkModulus:g}.png")
+        figures.drawUndrained(result, f"{folder or '.'}/undrained-{bulkModulus:g}.png")
     return found
 
 

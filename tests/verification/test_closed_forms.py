@@ -7,7 +7,7 @@ import pytest
 from yade import O
 
 from capfrac.errors import CaseError
-from capfrac.lab import closedforms, handmade, lattices, units
+from capfrac.lab.water import closedforms, handmade, lattices, units
 from capfrac.sediment import Sediment
 
 MU, KF, DP = 1e-3, 1e7, 1e3

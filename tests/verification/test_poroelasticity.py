@@ -7,9 +7,9 @@ import pytest
 from scipy.integrate import trapezoid
 
 from capfrac.errors import CaseError
-from capfrac.lab import poroelasticity as theory
-from capfrac.lab import undrained as laboratory
-from capfrac.lab.consolidation import consolidation
+from capfrac.lab.water import poroelasticity as theory
+from capfrac.lab.water import undrained as laboratory
+from capfrac.lab.water.consolidation import consolidation
 from capfrac.sediment import Sediment
 
 SAMPLE = {"rMin": 1e-2, "shearStiffness": 4e6, "seed": 1}

@@ -9,8 +9,8 @@ from yade.wrapper import SinglePhaseFlowEngine
 
 from capfrac import sediment
 from capfrac.errors import CaseError
-from capfrac.lab import flow as laboratory
-from capfrac.lab import profiles
+from capfrac.lab.water import diffusion as laboratory
+from capfrac.lab.water import profiles
 from capfrac.lab.box import Box
 
 NAN = float("nan")

@@ -7,7 +7,7 @@ import pytest
 from yade import O
 from yade.wrapper import SinglePhaseFlowEngine
 
-from capfrac.lab import stability
+from capfrac.lab.water import stability
 from capfrac.sediment import Sediment
 
 SAMPLE = Sediment(grainCount=40, rMin=1e-2, shearStiffness=4e6, seed=1)

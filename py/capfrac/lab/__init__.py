@@ -9,11 +9,8 @@
     biaxial       Young's modulus, Poisson's ratio, friction angle, cohesion
     tables        macroscopic properties against grain size and microscopic parameters
     contacts      the contact law on two grains (Equations 1 and 2)
-    flow          permeability, storage and diffusion of pressure (Table 1, Figures 11, 12); its runs are in ``transient``, its formulas in
-                  ``profiles``, its steps of time in ``schemes``
-    closedforms   water between grains set by hand (``handmade``, ``lattices``) and problems in other ``units`` against closed forms
-    undrained     compaction of a sealed sample, Biot coefficient (Figure 13)
-    figures       pictures of them; ``flow_figures`` those of flow
+    water         the tests of a fluid between the grains: diffusion, undrained compaction, consolidation, stability, closed forms
+    figures       pictures of them
     command       ``capfrac lab``
 
 Every test is a function that takes a :class:`~capfrac.sediment.Sediment` and works in YADE's current scene::

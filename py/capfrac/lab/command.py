@@ -5,10 +5,11 @@ from pathlib import Path
 
 from capfrac import keys, snapshot
 from capfrac.errors import CaseError
-from capfrac.lab import (biaxial, closedforms, compaction, consolidation, contacts, figures, flow, flow_figures, hydrate_ridge, parameters, settling, stability,
-                         tables, undrained, water_figures)
+from capfrac.lab import biaxial, compaction, contacts, figures, hydrate_ridge, parameters, settling, tables
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 from capfrac.lab.run import LabRun
+from capfrac.lab.water import closedforms, consolidation, diffusion, diffusion_figures, stability, undrained
+from capfrac.lab.water import figures as water_figures
 
 #: What each test is, in a line.
 TITLES = {
@@ -163,19 +164,19 @@ def _contacts(sample, own, run, base):
 def _closedForms(sample, own, run, base):
     found = closedforms.checkClosedForms(sample, run=run, **own)
     run.table("closed-forms", closedforms.table(found))
-    run.picture("closed-forms", lambda path: flow_figures.drawClosedForms(found, path))
+    run.picture("closed-forms", lambda path: diffusion_figures.drawClosedForms(found, path))
     return closedforms.summary(found)
 
 
 def _diffusion(sample, own, run, base):
-    found = flow.diffusion(sample, run=run, **own)
+    found = diffusion.diffusion(sample, run=run, **own)
     run.table("rates", {f"{name} [-]": values for name, values in found["rates"].items()})
     run.table("profiles", _columns(found["profiles"], lambda p: p, ("xi", "pressure", "expected", "expectedOfSteady")))
     run.table("layers", _columns(found["profiles"], lambda p: p["layers"], ("xi", "pressure", "expected")))
-    run.picture("figure11", lambda path: flow_figures.drawRates(found, path))
-    run.picture("figure12", lambda path: flow_figures.drawProfiles(found, path))
+    run.picture("figure11", lambda path: diffusion_figures.drawRates(found, path))
+    run.picture("figure12", lambda path: diffusion_figures.drawProfiles(found, path))
     if found["schemes"]:
-        run.picture("explicit", lambda path: flow_figures.drawSchemes(found, path))
+        run.picture("explicit", lambda path: diffusion_figures.drawSchemes(found, path))
         found["schemes"] = {key: value for key, value in found["schemes"].items() if key not in ("rates", "profiles", "implicitProfiles")}
     return {key: value for key, value in found.items() if key not in ("rates", "profiles")}
 

@@ -17,7 +17,7 @@ so T_c is known before the diffusion is run. In rigid grains c_v K_f is the poro
 which has no dimension of its own): that between the pores with prescribed pressures, which are reservoirs and store
 nothing; and along walls a sample has more void than inside.
 
-How pores and layers are compared with Eq. 20 is told in :mod:`capfrac.lab.profiles`.
+How pores and layers are compared with Eq. 20 is told in :mod:`capfrac.lab.water.profiles`.
 """
 
 import math
@@ -26,12 +26,12 @@ import numpy as np
 
 from capfrac import sediment
 from capfrac.errors import CaseError
-from capfrac.lab import schemes
+from capfrac.lab.water import schemes
 from capfrac.lab.compaction import prepareSample
-from capfrac.lab.handmade import requirePositive
-from capfrac.lab.profiles import HALF_TIME, PROFILE_TIMES, profileAt, profileErrors, rateErrors, withEquations
+from capfrac.lab.water.handmade import requirePositive
+from capfrac.lab.water.profiles import HALF_TIME, PROFILE_TIMES, profileAt, profileErrors, rateErrors, withEquations
 from capfrac.lab.run import LabRun
-from capfrac.lab.transient import steadyFlow, stepEnds, transient
+from capfrac.lab.water.transient import steadyFlow, stepEnds, transient
 
 
 def diffusion(sample, stress=100e3, pressure=1e3, bulkModulus=1e7, viscosity=1e-3, conductanceFactor=1.0, timeIntegration="implicit", steps=400, halvings=0,

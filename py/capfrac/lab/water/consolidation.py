@@ -2,7 +2,7 @@
 
 A bonded sample under an isotropic stress is loaded suddenly by a small additional stress on its roof. *Terzaghi*: fixed sides,
 drained roof; it settles as its water leaves. *Mandel*: between tight plates, drained at its sides, which stay at their stress; in
-the middle the pressure first rises, because the sides soften and hand load over. The solutions (:mod:`~capfrac.lab.poroelasticity`) have no
+the middle the pressure first rises, because the sides soften and hand load over. The solutions (:mod:`~capfrac.lab.water.poroelasticity`) have no
 free number: stiffnesses, Biot's coefficients, Biot's modulus and permeabilities are measured on the very sample (:func:`measureMaterial`).
 
 The fluid's viscosity follows from ``steps``, the number of time steps in which the sample is to consolidate: it has to be slow
@@ -16,7 +16,7 @@ import numpy as np
 from capfrac import sediment
 from capfrac.errors import CaseError
 from capfrac.lab.compaction import prepareSample
-from capfrac.lab.poroelasticity import Material, mandel, mandelPeak, mandelPressure, terzaghi, terzaghiDegree, terzaghiPressure
+from capfrac.lab.water.poroelasticity import Material, mandel, mandelPeak, mandelPressure, terzaghi, terzaghiDegree, terzaghiPressure
 from capfrac.lab.run import LabRun
 from capfrac.packing import hexagonal
 

@@ -9,8 +9,8 @@ import math
 import numpy as np
 
 from capfrac import sediment
-from capfrac.lab.handmade import alone
-from capfrac.lab.profiles import PROFILE_TIMES
+from capfrac.lab.water.handmade import alone
+from capfrac.lab.water.profiles import PROFILE_TIMES
 
 #: First and last of the steps' ends over T_c [-].
 FIRST_TIME, LAST_TIME = 1e-5, 1.5

@@ -19,7 +19,7 @@ import math
 import numpy as np
 
 from capfrac.errors import CaseError
-from capfrac.lab.handmade import advance, besideColumn, fill, poresOf, requirePositive, squareLattice, triangularLattice
+from capfrac.lab.water.handmade import advance, besideColumn, fill, poresOf, requirePositive, squareLattice, triangularLattice
 
 #: Shape factor of the law 'constantShape' [-].
 SHAPE = 0.026

@@ -8,9 +8,9 @@ gone. The explicit scheme, the paper's, is bound to steps of some 1e-5 of T_c by
 import numpy as np
 
 from capfrac.lab.compaction import prepareSample
-from capfrac.lab.lattices import orders
-from capfrac.lab.profiles import PROFILE_TIMES, profileAt, withEquations
-from capfrac.lab.transient import steadyFlow, stepEnds, transient
+from capfrac.lab.water.lattices import orders
+from capfrac.lab.water.profiles import PROFILE_TIMES, profileAt, withEquations
+from capfrac.lab.water.transient import steadyFlow, stepEnds, transient
 
 #: Steps of the coarsest implicit run beside the explicit one, and how often they are halved.
 COARSEST, HALVINGS = 100, 3
@@ -24,7 +24,7 @@ def limitOf(runs):
 def convergence(fluid, sample, ends, halvings=2):
     """Halve the steps of the implicit scheme on the sample in the scene; a dict.
 
-    Arguments as of :func:`capfrac.lab.transient.transient`; ``halvings`` >= 2. ``steps`` of each run; ``errors``: largest difference of a pore's pressure at
+    Arguments as of :func:`capfrac.lab.water.transient.transient`; ``halvings`` >= 2. ``steps`` of each run; ``errors``: largest difference of a pore's pressure at
     any of the profiles' times from the limit of the runs, over Delta p; ``orders`` from each pair; ``errorsAt``: of the first run at each of these times.
     """
     found = [transient(fluid, sample, "implicit", ends, 2**n) for n in range(halvings + 1)]
@@ -36,12 +36,12 @@ def convergence(fluid, sample, ends, halvings=2):
 def compareSchemes(sample, stress, fluid, run):
     """Run the explicit scheme and the implicit one with ever shorter steps on a new sample; a dict. The scene is replaced.
 
-    ``sample`` and ``stress`` [Pa] as in :func:`capfrac.lab.flow.diffusion`, ``fluid`` as in :mod:`capfrac.lab.transient`, ``run``: a
+    ``sample`` and ``stress`` [Pa] as in :func:`capfrac.lab.water.diffusion.diffusion`, ``fluid`` as in :mod:`capfrac.lab.water.transient`, ``run``: a
     :class:`~capfrac.lab.run.LabRun`. ``grains``; ``times`` of the profiles over T_c; ``explicitSteps``, the longest of them, ``explicitTimeStep`` [s], and
     ``explicitTimeStepOverTc``; ``implicitSteps`` of the implicit runs; ``differences`` of each of them from the explicit run, the largest of any pore and
     time, over Delta p; against the limit of the implicit runs, at each time, ``explicitErrorsAt`` and ``implicitErrorsAt`` (by number of
     steps), and the largest, ``implicitErrors``, with their ``orders``; ``rates`` and ``profiles`` of the explicit run and ``implicitProfiles`` of the finest
-    implicit one, as in :func:`~capfrac.lab.flow.diffusion`; ``ledger``, the largest error of the fluid's mass.
+    implicit one, as in :func:`~capfrac.lab.water.diffusion.diffusion`; ``ledger``, the largest error of the fluid's mass.
     """
     run.stage("sample", lambda: prepareSample(sample, stress, run))
     steady, ends = steadyFlow(fluid), stepEnds(COARSEST)

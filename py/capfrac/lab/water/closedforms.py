@@ -1,22 +1,22 @@
 """Water between grains that are set by hand, run by `SinglePhaseFlowEngine` itself, against formulas in closed form.
 
 All throats have the conductance of Eqs. 8 and 9 of Jain & Juanes (2008), G = C/L, with the constant shape factor 0.026, which
-:func:`capfrac.lab.lattices.conductance` writes out anew. L is the distance of the pores' centroids; a wall mirrors, so that a
+:func:`capfrac.lab.water.lattices.conductance` writes out anew. L is the distance of the pores' centroids; a wall mirrors, so that a
 grain that touches it leaves half a throat. A contact with d = 0 separates two pores and lets water pass.
 
 * Two pores on either side of a column of touching grains: p1 - p2 decays as exp(-G K_f (1/V1 + 1/V2) t).
 * Several columns: throats in series add their resistances, the throats of one column, side by side, their conductances.
-* Lattices and a pressure that spreads in them: :mod:`capfrac.lab.lattices`.
-* The same problem in other units: :mod:`capfrac.lab.units`.
+* Lattices and a pressure that spreads in them: :mod:`capfrac.lab.water.lattices`.
+* The same problem in other units: :mod:`capfrac.lab.water.units`.
 """
 
 import math
 
 import numpy as np
 
-from capfrac.lab import lattices, units
-from capfrac.lab.handmade import advance, besideColumn, column, fill, poresOf, requirePositive
-from capfrac.lab.lattices import conductance, orders
+from capfrac.lab.water import lattices, units
+from capfrac.lab.water.handmade import advance, besideColumn, column, fill, poresOf, requirePositive
+from capfrac.lab.water.lattices import conductance, orders
 from capfrac.lab.run import LabRun
 
 #: Numbers of time steps in the decay time of the two pores.

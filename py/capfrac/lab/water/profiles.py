@@ -49,7 +49,7 @@ def rateErrors(rates):
 def profileAt(tau, pressure, sample):
     """Pores and layers at the time ``tau`` against Eq. 20: a dict.
 
-    ``pressure``: of all pores over Delta p; ``sample``: of :func:`capfrac.lab.transient.steadyFlow`. Lists of the pores whose pressure is
+    ``pressure``: of all pores over Delta p; ``sample``: of :func:`capfrac.lab.water.transient.steadyFlow`. Lists of the pores whose pressure is
     free: ``xi``, ``pressure``, ``expected``, ``expectedOfSteady`` (Eq. 20 at the pore's steady pressure in place of xi), ``displacement``
     (from the place at which Eq. 20 has its pressure, in mean diameters; None where that is below :data:`FOOT`). ``layers``: ``xi``, ``pressure`` and
     ``expected`` averaged over all pores of a layer, those with prescribed pressures, too, weighted by their volumes.

@@ -1,6 +1,6 @@
 """Pictures of single-phase flow: Figures 11 and 12 of Jain & Juanes (2008), schemes in time, closed forms.
 
-Each function draws the result of a test (:mod:`capfrac.lab.flow`, :mod:`capfrac.lab.closedforms`) to a file (.png, .pdf or .svg).
+Each function draws the result of a test (:mod:`capfrac.lab.water.diffusion`, :mod:`capfrac.lab.water.closedforms`) to a file (.png, .pdf or .svg).
 """
 
 import math
@@ -10,8 +10,8 @@ import numpy as np
 
 from capfrac.figures import COLOURS, newFigure, quantity, saveFigure
 from capfrac.lab.figures import CYCLE, tidy
-from capfrac.lab.profiles import pressureProfile
-from capfrac.lab.lattices import conductance, pulseProfile
+from capfrac.lab.water.profiles import pressureProfile
+from capfrac.lab.water.lattices import conductance, pulseProfile
 
 _HOLLOW = {"linestyle": "none", "marker": "o", "markersize": 3.5, "markerfacecolor": "white"}
 
@@ -91,7 +91,7 @@ def drawSchemes(result, path):
 
 
 def drawClosedForms(result, path):
-    """All of :func:`capfrac.lab.closedforms.checkClosedForms` on a page: formulas as lines, the engine as marks."""
+    """All of :func:`capfrac.lab.water.closedforms.checkClosedForms` on a page: formulas as lines, the engine as marks."""
     with newFigure((11.6, 6.2)) as figure:
         grid = {"left": 0.05, "right": 0.99, "bottom": 0.095, "top": 0.945, "wspace": 0.36, "hspace": 0.36}
         panels = figure.subplots(2, 4, gridspec_kw=grid).flat

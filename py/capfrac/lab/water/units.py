@@ -21,7 +21,7 @@ import numpy as np
 
 from capfrac import sediment
 from capfrac.lab.compaction import prepareSample
-from capfrac.lab.handmade import alone, requirePositive, triangularLattice
+from capfrac.lab.water.handmade import alone, requirePositive, triangularLattice
 from capfrac.lab.run import LabRun
 
 #: Vertical strain of the compressions [-], steps of time on the way, and rows of the curves.
