@@ -53,7 +53,7 @@ def test_keysAreListedForEveryTest(capsys):
     for test in command.TITLES:
         assert main(["lab", test, "--keys"]) == 0
         assert "[grains]" in capsys.readouterr().out
-    assert set(command.TITLES) == set(parameters.TESTS) == set(command._TESTS)
+    assert set(command.TITLES) == set(parameters.TESTS) == set(command._REPORTS)
 
 
 class Stop:

@@ -11,6 +11,7 @@
     contacts      the contact law on two grains (Equations 1 and 2)
     water         the tests of a fluid between the grains: diffusion, undrained compaction, consolidation, stability, closed forms
     figures       pictures of them
+    reports       what the tests leave in their run folders
     command       ``capfrac lab``
 
 Every test is a function that takes a :class:`~capfrac.sediment.Sediment` and works in YADE's current scene::

@@ -6,5 +6,6 @@
     consolidation  Terzaghi's and Mandel's problems; their solutions are in ``poroelasticity``
     stability      long runs: energy, flips, books of the mass
     closedforms    grains set by hand (``handmade``, ``lattices``) and problems in other ``units`` against closed forms
+    reports        what the tests leave in their run folders
     figures        pictures; ``diffusion_figures`` those of flow past grains that stand still
 """

@@ -30,6 +30,8 @@ ROWS = 120
 #: The pressure is averaged over this share of the length from the base or the middle: pores differ from their neighbours, because
 #: a load changes the shape of each in its own way.
 WINDOW = {"terzaghi": 0.1, "mandel": 0.2}
+#: Pressures in the middle, over p0, at which times are compared as they fall.
+FALLEN = (0.95, 0.9, 0.85, 0.8)
 #: Degrees of consolidation at which time factors are compared.
 DEGREES = (0.25, 0.5, 0.75, 0.9)
 _SAVED = "capfrac.consolidation"
@@ -45,7 +47,7 @@ def consolidation(sample, kind="terzaghi", stress=100e3, load=5e3, bulkModulus=2
     or in the middle) and ``pressureExpected``, ``ledger`` (relative error of the water's mass); for 'terzaghi' ``degree`` and ``degreeExpected``,
     ``timeRatios`` (measured over theoretical time at :data:`DEGREES`) and ``settlement`` and ``settlementExpected`` at the end [m]; for 'mandel'
     ``kappa``, ``undrainedRatio`` (undrained pressure in the middle, measured over p0), ``peak`` (over the measured undrained pressure), ``peakTime`` and both
-    ``Expected``, and ``timeRatios`` at pressures of 0.9, 0.8 and 0.7. :class:`CaseError` for impossible values.
+    ``Expected``, and ``timeRatios`` as the pressure falls to :data:`FALLEN`. :class:`CaseError` for impossible values.
     """
     run = run or LabRun(kind, {})
     if kind not in LAST_TIME:
@@ -253,12 +255,11 @@ def _evaluateMandel(found, theory, data):
 
 
 def _fallTimes(T, measured, expected):
-    """Measured over theoretical time at which the pressure in the middle has fallen to shares of p0, after its peak."""
+    """Measured over theoretical time at which the pressure in the middle has fallen to :data:`FALLEN` of p0, after its peak; those reached by both."""
     ratios = []
-    for level in (0.9, 0.8, 0.7):
-        times = []
-        for curve in (measured, expected):
-            after = slice(int(np.argmax(curve)), None)
-            times.append(float(np.interp(-level, -np.array(curve)[after], T[after])))
-        ratios.append(times[0] / times[1])
+    for level in FALLEN:
+        curves = [np.array(curve)[int(np.argmax(curve)) :] for curve in (measured, expected)]
+        if all(curve[-1] <= level for curve in curves):
+            times = [float(np.interp(-level, -curve, T[len(T) - len(curve) :])) for curve in curves]
+            ratios.append(times[0] / times[1])
     return ratios
