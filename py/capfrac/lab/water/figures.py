@@ -61,11 +61,10 @@ def drawStability(result, path):
     with newFigure((8.6, 3.4)) as figure:
         energy, books = figure.add_axes([0.075, 0.15, 0.4, 0.81]), figure.add_axes([0.56, 0.15, 0.37, 0.81])
         for colour, (name, one) in zip(CYCLE * 3, result["shake"].items()):
-            if one["end"] == "bounded":
-                energy.plot(np.maximum(one["steps"], 1), np.maximum(one["energy"], 1e-4), color=colour, linewidth=1.2, label=name)
-            else:
-                energy.plot([1, max(2, one["stepsDone"])], [1, 1e3], color=colour, linewidth=1.2, linestyle=(0, (2, 1.5)), label=f"{name}: blew up in step {one['stepsDone']}")
-        energy.set(xlabel="time steps", ylabel="energy / energy at the start", xscale="log", yscale="log", xlim=(1, None), ylim=(1e-2, 1e3))
+            end = "" if one["end"] == "bounded" else f": ended in step {one['stepsDone']}"
+            steps, height = np.maximum(one["steps"], 1), np.maximum(one["energy"], 1e-4)
+            energy.plot(steps, height, color=colour, linewidth=1.2, marker="x" if end else None, linestyle=(0, (2, 1.5)) if end else "-", label=name + end)
+        energy.set(xlabel="time steps", ylabel="energy / energy at the start", xscale="log", yscale="log", xlim=(1, None), ylim=(1e-2, None))
         energy.legend(fontsize=7, frameon=False)
         flips = books.twinx()
         for colour, (name, one) in zip(CYCLE, result["stir"].items()):
