@@ -1,6 +1,7 @@
 #include "GrainCompression.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace capfrac {

@@ -1,5 +1,8 @@
 #include "FluidWeight.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace capfrac {
 
 namespace {
