@@ -23,24 +23,24 @@ capfrac::Skeleton SinglePhaseFlowEngine::skeleton() const
 	for (const auto& engine : scene->engines)
 		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) weight = newton->gravity, skeleton.damping = newton->damping;
 	scene->forces.sync();
-	const auto fluidWeight = weightOfFluid();
 	for (int i = 0; i < n; ++i) {
 		const auto& body  = *(*scene->bodies)[reader.grainIds[i]];
 		const auto& state = *body.state;
 		checkMotion(body);
+		Vector3r force = scene->forces.getForce(body.id) + state.mass * weight;
+		if (!weightForce.grains.empty()) force += thickness * Vector3r(weightForce.grains[i].x, weightForce.grains[i].y, 0);
 		for (int axis = 0; axis < 2; ++axis) {
 			skeleton.velocity[2 * i + axis] = state.vel[axis];
 			if (!body.isDynamic() || state.blockedDOFs & State::axisDOF(axis)) continue;
 			skeleton.mass[2 * i + axis]  = state.mass;
-			skeleton.force[2 * i + axis] = scene->forces.getForce(body.id)[axis] + state.mass * weight[axis];
-			if (!fluidWeight.grains.empty()) skeleton.force[2 * i + axis] += thickness * (axis ? fluidWeight.grains[i].y : fluidWeight.grains[i].x);
+			skeleton.force[2 * i + axis] = force[axis];
 		}
 	}
-	addWalls(skeleton, fluidWeight);
+	addWalls(skeleton);
 	return skeleton;
 }
 
-void SinglePhaseFlowEngine::addWalls(capfrac::Skeleton& skeleton, const capfrac::FluidForces& fluidWeight) const
+void SinglePhaseFlowEngine::addWalls(capfrac::Skeleton& skeleton) const
 {
 	const int n = 2 * mesh.nGrains;
 	for (int w = 0; w < capfrac::nWalls; ++w) {
@@ -59,7 +59,7 @@ void SinglePhaseFlowEngine::addWalls(capfrac::Skeleton& skeleton, const capfrac:
 			if (answers[w].mobility <= 0) continue;
 			skeleton.velocity[n + w] = 0;
 			skeleton.mass[n + w]     = scene->dt * (1 + skeleton.damping) / answers[w].mobility;
-			skeleton.force[n + w]    = answers[w].velocity / answers[w].mobility + thickness * capfrac::dot(fluidWeight.walls[w], capfrac::Box::outward(w));
+			skeleton.force[n + w]    = answers[w].velocity / answers[w].mobility + thickness * capfrac::dot(weightForce.walls[w], capfrac::Box::outward(w));
 		}
 	}
 }
@@ -87,9 +87,8 @@ capfrac::GrainCompression SinglePhaseFlowEngine::compression() const
 	return compression;
 }
 
-void SinglePhaseFlowEngine::compressGrains(const capfrac::GrainCompression& compression, const std::vector<double>& pressure)
+void SinglePhaseFlowEngine::compressGrains(const std::vector<double>& growth)
 {
-	const auto growth = capfrac::radiusGrowth(compression, pressure);
 	for (std::size_t i = 0; i < growth.size(); ++i) {
 		const Real radius = reader.grains[i].radius + growth[i];
 		if (!(radius > 0.5 * referenceRadii[i])) { // Eq. 10 is linear: it means nothing there
@@ -105,12 +104,8 @@ void SinglePhaseFlowEngine::compressGrains(const capfrac::GrainCompression& comp
 
 capfrac::FluidForces SinglePhaseFlowEngine::forcesOfFluids() const
 {
-	auto       forces = capfrac::fluidForces(gradients, cellPressures(), reader.grains.size());
-	const auto weight = weightOfFluid();
-	for (std::size_t i = 0; i < weight.grains.size(); ++i)
-		forces.grains[i] += weight.grains[i];
-	for (int w = 0; w < capfrac::nWalls; ++w)
-		forces.walls[w] += weight.walls[w];
+	auto forces = capfrac::fluidForces(gradients, cellPressures(), reader.grains.size());
+	if (!weightForce.grains.empty()) forces += weightForce;
 	return forces;
 }
 
@@ -122,12 +117,8 @@ capfrac::FluidForces SinglePhaseFlowEngine::weightOfFluid() const
 	std::vector<double> atCentroid(mesh.cells.size());
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
 		atCentroid[c] = -capfrac::dot(weight, poreCentre[poreOfCell[c]] - corner);
-	auto       forces = capfrac::fluidForces(gradients, atCentroid, reader.grains.size());
-	const auto rest   = capfrac::weightForces(mesh, reader.grains, reader.box, weight);
-	for (std::size_t i = 0; i < rest.grains.size(); ++i)
-		forces.grains[i] += rest.grains[i];
-	for (int w = 0; w < capfrac::nWalls; ++w)
-		forces.walls[w] += rest.walls[w];
+	auto forces = capfrac::fluidForces(gradients, atCentroid, reader.grains.size());
+	forces += capfrac::weightForces(mesh, reader.grains, reader.box, weight);
 	return forces;
 }
 

@@ -2,6 +2,7 @@
 #include "Walls.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace yade {
 
@@ -56,7 +57,6 @@ void SinglePhaseFlowEngine::startFluids()
 	for (auto& water : contents.water)
 		water = capfrac::massAt(waterPressure, water, bulkModulus);
 	initialWater = thickness * contents.totalWater();
-	poreOfCell.clear();
 	cellPressure.clear();
 	referencePressure = waterPressure;
 	referenceRadii.clear();
@@ -67,7 +67,6 @@ void SinglePhaseFlowEngine::startFluids()
 /// For reports until the next step finds pressures anew: cells that are new have that of a neighbour that is not.
 void SinglePhaseFlowEngine::followRemesh(const capfrac::Triangulation& before)
 {
-	poreOfCell.clear();
 	if (cellPressure.size() != before.cells.size()) return;
 	std::vector<Real> pressure(mesh.cells.size(), NaN);
 	for (std::size_t n = 0, o = 0; n < mesh.cells.size(); ++n) { // both are sorted by vertex
@@ -106,6 +105,7 @@ void SinglePhaseFlowEngine::describePores()
 	}
 	groupPores(moments);
 	gradients = capfrac::volumeGradients(mesh, reader.grains, reader.box, std::isfinite(grainBulkModulus) ? capfrac::Radii::vary : capfrac::Radii::fixed);
+	weightForce = weightOfFluid();
 }
 
 void SinglePhaseFlowEngine::advanceFluids()
@@ -115,7 +115,7 @@ void SinglePhaseFlowEngine::advanceFluids()
 	auto              network = flowNetwork();
 	try {
 		done = step(network);
-		if (std::isfinite(grainBulkModulus)) compressGrains(compression(), done.pressure);
+		compressGrains(done.growth);
 	} catch (const capfrac::FlowError& e) {
 		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what() + placeOf(e.pore));
 	} catch (const std::exception& e) {

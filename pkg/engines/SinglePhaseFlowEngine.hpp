@@ -37,7 +37,7 @@ private:
 	enum class Scheme { undrainedStable, implicit, explicitEuler };
 
 	void                 guardAttributes();
-	/// Pores, their volumes and centroids, and how they answer to the grains, as they are now.
+	/// Pores, their volumes and centroids, how they answer to the grains, and the fluid's weight, as they are now.
 	void                 describePores();
 	void                 groupPores(const std::vector<capfrac::VoidMoments>& moments);
 	void                 findPoresAlongWalls();
@@ -46,13 +46,13 @@ private:
 	void                 addBoundaries(capfrac::FlowNetwork& network) const;
 	void                 fixPressure(capfrac::FlowNetwork& network, int pore, double pressure, const std::string& owner) const;
 	capfrac::Skeleton    skeleton() const;
-	void                 addWalls(capfrac::Skeleton& skeleton, const capfrac::FluidForces& fluidWeight) const;
-	/// Forces of the fluid's weight per thickness [N/m], to be added to those of the pores' pressures.
+	void                 addWalls(capfrac::Skeleton& skeleton) const;
+	/// Forces of the fluid's weight per thickness [N/m], to be added to those of the pores' pressures; no grains: it has none.
 	capfrac::FluidForces weightOfFluid() const;
 	std::string          placeOf(int pore) const;
 	void                 checkMotion(const Body& body) const;
 	capfrac::GrainCompression compression() const;
-	void                 compressGrains(const capfrac::GrainCompression& compression, const std::vector<double>& pressure);
+	void                 compressGrains(const std::vector<double>& growth);
 	capfrac::FlowStep    step(capfrac::FlowNetwork& network);
 	void                 bookInflow(const capfrac::FlowStep& done);
 
@@ -66,6 +66,7 @@ private:
 	std::vector<double>       voids;     ///< of the cells [m^2]
 	std::array<std::vector<int>, capfrac::nWalls> poresAlong; ///< those at a prescribed pressure along each wall
 	capfrac::VolumeGradients  gradients; ///< of the cells
+	capfrac::FluidForces      weightForce; ///< weightOfFluid(); no grains: it has none
 	capfrac::Accepted         accepted;
 
 public:

@@ -193,7 +193,8 @@ FlowStep coupledStep(FlowNetwork& network, const Skeleton& skeleton, double dt, 
 		for (std::size_t k = from; k < to; ++k)
 			step.volume[b[k].pore] += dt * dt * (1 + skeleton.damping) / skeleton.mass[b[k].freedom] * b[k].value * force;
 	});
-	addGrowth(skeleton.compression, radiusGrowth(skeleton.compression, step.pressure), step.volume);
+	step.growth = radiusGrowth(skeleton.compression, step.pressure);
+	addGrowth(skeleton.compression, step.growth, step.volume);
 	moveMass(network, dt, step);
 	return step;
 }

@@ -64,6 +64,7 @@ FlowStep explicitStep(FlowNetwork& network, const std::vector<double>& newVolume
 	moveMass(network, dt, step);
 	setVolumes(network, step.volume);
 	step.pressure = pressuresOf(network);
+	step.growth   = radiusGrowth(compression, step.pressure);
 	return step;
 }
 
@@ -81,7 +82,8 @@ FlowStep implicitStep(FlowNetwork& network, const std::vector<double>& newVolume
 	assembly.addStorage(step.volume, dt);
 	assembly.addCompression(compression, dt);
 	assembly.solve(solver, step);
-	addGrowth(compression, radiusGrowth(compression, step.pressure), step.volume);
+	step.growth = radiusGrowth(compression, step.pressure);
+	addGrowth(compression, step.growth, step.volume);
 	moveMass(network, dt, step);
 	setVolumes(network, step.volume);
 	return step;

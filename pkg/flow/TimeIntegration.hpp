@@ -30,6 +30,7 @@ struct FlowLedger {
 struct FlowStep {
 	std::vector<double> pressure;   ///< of the pores at the end [Pa]; those that load the grains
 	std::vector<double> volume;     ///< of the pores at the end [m^3]; foreseen where grains give way to the fluid
+	std::vector<double> growth;     ///< of the radii of compressed grains [m]; empty: rigid grains
 	std::vector<double> throatFlow; ///< from a to b [m^3/s]
 	std::vector<double> linkFlow;   ///< out of the sample [m^3/s]
 	std::vector<double> supply;     ///< from outside into the pores of fixed pressure [m^3/s], 0 elsewhere

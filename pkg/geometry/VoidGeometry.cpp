@@ -219,6 +219,15 @@ VoidMoments voidMoments(const Triangulation& mesh, int cell, const std::vector<D
 	return found;
 }
 
+FluidForces& FluidForces::operator+=(const FluidForces& other)
+{
+	for (std::size_t i = 0; i < grains.size(); ++i)
+		grains[i] += other.grains[i];
+	for (int w = 0; w < nWalls; ++w)
+		walls[w] += other.walls[w];
+	return *this;
+}
+
 FluidForces fluidForces(
         const Triangulation& mesh, const std::vector<double>& pressure, const std::vector<Disk>& grains, const Box& box)
 {

@@ -56,6 +56,9 @@ std::vector<Vec2> cellPolygon(const Triangulation& mesh, int cell, const std::ve
 struct FluidForces {
 	std::vector<Vec2>             grains; ///< on the grains
 	std::array<Vec2, nWalls>      walls;  ///< on the walls; only the normal component can differ from zero
+
+	/// Adds other forces on the same grains and walls.
+	FluidForces& operator+=(const FluidForces& other);
 };
 
 /// Forces of the pressures [Pa] of the cells on grains and walls, F = sum over cells of p dV/dx.

@@ -37,10 +37,9 @@ def startInjection(start, increment, max, pores=0, wall="bottom", outlet="top", 
     other attributes of the engine can be given by name. Raises :class:`CaseError` for an impossible inlet, and
     :class:`SceneError` for a scene that cannot be followed (RuntimeError of the engine); the scene then is as before.
     """
-    from yade import O
     from yade.wrapper import GasInvasionEngine
 
-    servo = sediment.engine("servo")
+    sediment.engine("servo")  # a scene without one is refused before anything is made
     try:
         gas = GasInvasionEngine(label="gas", gasPressure=waterPressure + start, pressureIncrement=increment, waterPressure=waterPressure,
                                 maxPressure=waterPressure + max, inletWall=wall, outletWall=outlet, **attributes)
@@ -56,10 +55,7 @@ def startInjection(start, increment, max, pores=0, wall="bottom", outlet="top", 
         raise CaseError(f"inlet: {problem}") from None
     except RuntimeError as problem:
         raise SceneError(str(problem)) from None
-    engines = list(O.engines)
-    engines.insert(engines.index(servo), gas)
-    O.engines = engines
-    return sediment.engine("gas")
+    return sediment.insertFluid(gas)
 
 
 def _middle(wall):
@@ -103,11 +99,6 @@ def _startGas(case):
         unbalancedTolerance=ramp["unbalanced"], minLevelSteps=ramp["minLevelSteps"], invasionInterval=ramp["invasionInterval"], maxLevelSteps=ramp["maxLevelSteps"])
 
 
-def _boxSize():
-    walls = sediment.wallBodies()
-    return walls["right"].state.pos[0] - walls["left"].state.pos[0], walls["top"].state.pos[1] - walls["bottom"].state.pos[1]
-
-
 class Run:
     """One injection in the current scene, writing to a run folder. Made by :func:`inject`."""
 
@@ -134,8 +125,8 @@ class Run:
         bonded = sum(1 for i in O.interactions if i.isReal and not i.phys.cohesionBroken)
         self.folder.writeSummary(
             state="running", title=self.case["case"]["title"], versions=versions(), parameters=self.case, snapshots=[],
-            sample={"grains": len(O.bodies) - 4, "boxWidth [m]": _boxSize()[0], "boxHeight [m]": _boxSize()[1], "stress [Pa]": list(sediment.engine("servo").stress),
-                    "porosity": self.gas.volumes()["void"] / math.prod(_boxSize()), "bondsSet": nBonds, "bondsHolding": bonded,
+            sample={"grains": len(O.bodies) - 4, "boxWidth [m]": sediment.boxSize()[0], "boxHeight [m]": sediment.boxSize()[1], "stress [Pa]": list(sediment.engine("servo").stress),
+                    "porosity": self.gas.volumes()["void"] / math.prod(sediment.boxSize()), "bondsSet": nBonds, "bondsHolding": bonded,
                     "rattlers": len(self.gas.rattlers), "throatEntryPressureMin [Pa]": min(throats), "throatEntryPressureMax [Pa]": max(throats),
                     "inletPores": self.gas.inletPores, "inletWidth [m]": self.gas.inletWidth})
         self.start = snapshot.takeSnapshot(self.gas)
@@ -193,7 +184,7 @@ class Run:
         if ramp["endAt"] == "breakthrough" and self.gas.breakthroughIter >= 0:
             return "gas reached the outlet"
         before = self.folder.summary["sample"]
-        growth = max(_boxSize()[0] / before["boxWidth [m]"], _boxSize()[1] / before["boxHeight [m]"]) - 1
+        growth = max(sediment.boxSize()[0] / before["boxWidth [m]"], sediment.boxSize()[1] / before["boxHeight [m]"]) - 1
         if growth > ramp["maxExtension"]:
             return f"the sample came apart: the box grew by {growth:.0%}"
         if self.gas.rampDone and self.gas.gasPressure - self.gas.waterPressure >= ramp["max"]:

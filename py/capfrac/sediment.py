@@ -143,14 +143,14 @@ def engine(label):
     raise SceneError(f"the scene has no engine with the label '{label}'; make the sample with capfrac.sediment.buildScene")
 
 
-def insertFlow(flow):
+def insertFluid(fluid):
     """Put a fluid engine (with a label) where it belongs, after the contacts and before the servo; returns it as YADE holds it."""
     from yade import O
 
     engines = list(O.engines)
-    engines.insert(engines.index(engine("servo")), flow)
+    engines.insert(engines.index(engine("servo")), fluid)
     O.engines = engines
-    return engine(flow.label)
+    return engine(fluid.label)
 
 
 def grainBodies():
@@ -165,9 +165,7 @@ def startSettling(sample, gravity=None):
     newton = engine("newton")
     newton.damping = SETTLING_DAMPING
     if gravity is None:
-        walls = wallBodies()
-        width = walls["right"].state.pos[0] - walls["left"].state.pos[0]
-        column = math.pi * sum(body.shape.radius**2 for body in grainBodies()) / 0.84 / width
+        column = math.pi * sum(body.shape.radius**2 for body in grainBodies()) / 0.84 / boxSize()[0]
         gravity = SETTLING_OVERLAP * sample.normalStiffness / (2 * sample.density * column)
     newton.gravity = (0, -gravity, 0)
 
@@ -244,6 +242,18 @@ def wallBodies():
             raise SceneError(f"the scene has {len(pair)} walls of axis {axis}, needed: two of axis 0 and two of axis 1")
         named.update(zip(names, pair))
     return named
+
+
+def boxSize():
+    """Width and height of the box of the current scene [m]."""
+    walls = wallBodies()
+    return walls["right"].state.pos[0] - walls["left"].state.pos[0], walls["top"].state.pos[1] - walls["bottom"].state.pos[1]
+
+
+def wallStresses():
+    """Horizontal and vertical stress that the servo last measured, each the mean of two walls [Pa]."""
+    left, right, bottom, top = engine("servo").stress
+    return 0.5 * (left + right), 0.5 * (bottom + top)
 
 
 def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxSteps=1_000_000, progress=None):

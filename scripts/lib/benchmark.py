@@ -53,12 +53,9 @@ def measure(grainCount):
     found = [compare(gas, "GasInvasionEngine")]
     gas.dead = True
     for scheme in ("undrainedStable", "implicit"):
-        flow = SinglePhaseFlowEngine(timeIntegration=scheme, label=scheme)
-        engines = list(O.engines)
-        engines.insert(engines.index(sediment.engine("servo")), flow)
-        O.engines = engines
-        found.append(compare(sediment.engine(scheme), f"SinglePhaseFlowEngine, {scheme}"))
-        sediment.engine(scheme).dead = True
+        flow = sediment.insertFluid(SinglePhaseFlowEngine(timeIntegration=scheme, label=scheme))
+        found.append(compare(flow, f"SinglePhaseFlowEngine, {scheme}"))
+        flow.dead = True
     return {"grains": grainCount, "engines": found}
 
 

@@ -46,7 +46,7 @@ def test_radiiOfCompressedGrainsSurviveSaving(loadSample, tmp_path):
         return radii().tolist(), [tuple(body.state.pos) for body in sediment.grainBodies()]
 
     loadSample()
-    sediment.insertFlow(SinglePhaseFlowEngine(label="flow", bulkModulus=1e7, grainBulkModulus=1e8, wallPressures=[NAN, NAN, 0.0, 2e3]))
+    sediment.insertFluid(SinglePhaseFlowEngine(label="flow", bulkModulus=1e7, grainBulkModulus=1e8, wallPressures=[NAN, NAN, 0.0, 2e3]))
     go()
     pressures = sediment.engine("flow").pores()["pressure"]
     O.save(str(tmp_path / "scene.yade.gz"), quiet=True)
@@ -131,7 +131,7 @@ def test_aClusterThatFloatsIsNamedByItsPlace(loadSample):
 
 def test_aContactThatGivesNoNumberIsNamed(loadSample):
     loadSample()
-    sediment.insertFlow(SinglePhaseFlowEngine(label="flow", bulkModulus=2.2e9))
+    sediment.insertFluid(SinglePhaseFlowEngine(label="flow", bulkModulus=2.2e9))
     sediment.advance(2)
     contact = next(i for i in O.interactions if i.isReal and i.id1 >= 4 and i.id2 >= 4)
     contact.phys.kn = NAN

@@ -1,6 +1,6 @@
 /// flow/FlowNetwork: masses and pressures, clusters, what is refused and how it is said.
 
-#include "flow/FlowNetwork.hpp"
+#include "FlowNetworks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace capfrac {
 
 namespace {
 
-	constexpr double infinite = std::numeric_limits<double>::infinity();
+	using namespace samples;
 
 	/// Pores of volume one in a row, full at pressure zero, throats of conductance one between them.
 	FlowNetwork row(int n, double bulkModulus)
@@ -23,16 +23,6 @@ namespace {
 			if (i > 0) network.throats.push_back({ i - 1, i, 1 });
 		}
 		return network;
-	}
-
-	template <class Call> std::string messageOf(Call call)
-	{
-		try {
-			call();
-		} catch (const FlowError& error) {
-			return error.what();
-		}
-		return "no FlowError";
 	}
 
 	/// The message for a row of three pores after `spoil`.

@@ -26,16 +26,12 @@ def alone(**attributes):
 
 def among(**attributes):
     """The engine between contacts and integrator: grains move."""
-    engines = list(O.engines)
-    engines.insert(engines.index(sediment.engine("servo")), SinglePhaseFlowEngine(label="flow", **attributes))
-    O.engines = engines
-    return sediment.engine("flow")
+    return sediment.insertFluid(SinglePhaseFlowEngine(label="flow", **attributes))
 
 
 def permeability(engine):
     O.step()
-    walls = sediment.wallBodies()
-    width, height = (walls[b].state.pos[axis] - walls[a].state.pos[axis] for axis, a, b in ((0, "left", "right"), (1, "bottom", "top")))
+    width, height = sediment.boxSize()
     return engine.viscosity * engine.inflow()["top"] * height / (width * 1000.0)
 
 

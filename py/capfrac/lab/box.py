@@ -56,8 +56,7 @@ class Box:
 
     def lengths(self):
         """Width and height [m]."""
-        walls = sediment.wallBodies()
-        return walls["right"].state.pos[0] - walls["left"].state.pos[0], walls["top"].state.pos[1] - walls["bottom"].state.pos[1]
+        return sediment.boxSize()
 
     def solidArea(self):
         """Area of the grains, overlaps counted twice [m^2]."""
@@ -194,10 +193,9 @@ class Box:
         """Measure and append a row; returns it as a dict by column. ``speed`` of the top wall until now [m/s]."""
         from yade import O, utils
 
-        servo, reference = sediment.engine("servo"), self.run.data["reference"]
+        reference = self.run.data["reference"]
         width, height = self.lengths()
-        left, right, bottom, top = servo.stress
-        stressV, stressH = 0.5 * (bottom + top), 0.5 * (left + right)
+        stressH, stressV = sediment.wallStresses()
         rate = abs(speed) / reference["height"]
         mean = max(0.5 * (stressV + stressH), 1e-300)
         solid = self.solidArea()

@@ -16,6 +16,7 @@ import numpy as np
 from capfrac import sediment
 from capfrac.errors import CaseError
 from capfrac.lab.compaction import prepareSample
+from capfrac.lab.water.handmade import alone, drainedAt
 from capfrac.lab.water.poroelasticity import Material, mandel, mandelPeak, mandelPressure, terzaghi, terzaghiDegree, terzaghiPressure
 from capfrac.lab.run import LabRun
 from capfrac.packing import hexagonal
@@ -93,21 +94,9 @@ def measureMaterial(load, bulkModulus):
     return material.asDict()
 
 
-def _stresses():
-    """Mean stresses on the walls, (sigma_x, sigma_y) [Pa]."""
-    left, right, bottom, top = sediment.engine("servo").stress
-    return np.array([0.5 * (left + right), 0.5 * (bottom + top)])
-
-
-def _box():
-    """Width and height of the box [m]."""
-    walls = sediment.wallBodies()
-    return np.array([walls["right"].state.pos[0] - walls["left"].state.pos[0], walls["top"].state.pos[1] - walls["bottom"].state.pos[1]])
-
-
 def _settleWaves(steps=4000):
     sediment.advance(steps)
-    return _stresses()
+    return np.array(sediment.wallStresses())
 
 
 def _stiffness(wall, load, steps=4000):
@@ -117,12 +106,12 @@ def _stiffness(wall, load, steps=4000):
     servo = sediment.engine("servo")
     servo.fixedWalls, servo.drivenWalls, servo.driveVelocity = [name for name in ("left", "right", "bottom", "top") if name != wall], [wall], 0.0
     axis = 0 if wall == "right" else 1
-    before, length = _settleWaves(), _box()[axis]
+    before, length = _settleWaves(), sediment.boxSize()[axis]
     strain = load / sediment.grainBodies()[0].material.normalStiffness  # stiffnesses are of the order of k_n over the thickness, 1 m
     servo.driveVelocity = strain * length / (steps * O.dt)
     sediment.advance(steps)
     servo.driveVelocity = 0.0
-    return ((_settleWaves() - before) / (1 - _box()[axis] / length)).tolist()
+    return ((_settleWaves() - before) / (1 - sediment.boxSize()[axis] / length)).tolist()
 
 
 def _pressurize(load, bulkModulus):
@@ -131,9 +120,9 @@ def _pressurize(load, bulkModulus):
 
     servo = sediment.engine("servo")
     servo.fixedWalls = ["left", "right", "bottom", "top"]
-    before, area = _settleWaves(), float(np.prod(_box()))
+    before, area = _settleWaves(), float(np.prod(sediment.boxSize()))
     # Hardly any viscosity: only the state at the end counts.
-    flow = sediment.insertFlow(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, viscosity=1e-6, wallPressures=[load] * 4))
+    flow = sediment.insertFluid(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, viscosity=1e-6, wallPressures=[load] * 4))
     after = _settleWaves()
     bx, by = (after - before) / load
     return float(bx), float(by), float(load * area / flow.waterIn)
@@ -142,22 +131,13 @@ def _pressurize(load, bulkModulus):
 def permeability(axis):
     """Permeability for flow along ``axis`` (0: x, 1: y) of the grains in the scene, which stand still [m^2]; the engines are lost."""
     from yade import O
-    from yade.wrapper import SinglePhaseFlowEngine
 
     pressures = [math.nan] * 4
     pressures[2 * axis : 2 * axis + 2] = [0.0, 1.0]
-    flow = SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=math.inf, viscosity=1e-3, wallPressures=pressures)
-    O.engines = [flow]
+    flow = alone(maxSizeRatio=100, bulkModulus=math.inf, viscosity=1e-3, wallPressures=pressures)
     O.step()
     low, high = (drainedAt(flow, axis, pressure) for pressure in (0.0, 1.0))
-    return float(1e-3 * flow.inflow()[("right", "top")[axis]] * (high - low) / _box()[1 - axis])
-
-
-def drainedAt(flow, axis, pressure):
-    """Where along ``axis`` the pores lie that are held at ``pressure``: the mean of their centroids [m]."""
-    pores = flow.pores()
-    at = np.array(pores["pressure"]) == pressure
-    return float(np.average(np.array(pores["xy"[axis]])[at], weights=np.array(pores["volume"])[at]))
+    return float(1e-3 * flow.inflow()[("right", "top")[axis]] * (high - low) / sediment.boxSize()[1 - axis])
 
 
 # --- the tests -----------------------------------------------------------------------------------
@@ -171,7 +151,7 @@ def _load(kind, material, load, bulkModulus, steps, run):
     pressures = [0.0 if name in drained else math.nan for name in ("left", "right", "bottom", "top")]
 
     def begin():
-        flow = sediment.insertFlow(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, wallPressures=pressures))
+        flow = sediment.insertFluid(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, wallPressures=pressures))
         servo = sediment.engine("servo")
         servo.fixedWalls = ["bottom", "left", "right"] if kind == "terzaghi" else ["bottom"]
         sediment.advance(1)
@@ -179,7 +159,7 @@ def _load(kind, material, load, bulkModulus, steps, run):
         theory = _theory(kind, material, 1.0, load, run.data)
         # At viscosity 1 the diffusivity is c_1: c = c_1/viscosity, and T_end = c steps dt/H^2.
         flow.viscosity = theory["diffusivity"] * steps * O.dt / (LAST_TIME[kind] * run.data["length"] ** 2)
-        run.data.update(viscosity=flow.viscosity, height0=float(_box()[1]))
+        run.data.update(viscosity=flow.viscosity, height0=float(sediment.boxSize()[1]))
         parts = 200 if RAMP[kind] > 0 else 1
         for _ in range(parts):
             servo.stressY += load / parts
@@ -207,11 +187,11 @@ def _geometry(kind, flow):
     """Length of drainage, and for Mandel's problem the middle and the half-width of the plates [m]."""
     walls = sediment.wallBodies()
     if kind == "terzaghi":
-        return {"length": drainedAt(flow, 1, 0.0) - walls["bottom"].state.pos[1], "height": float(_box()[1])}
+        return {"length": drainedAt(flow, 1, 0.0) - walls["bottom"].state.pos[1], "height": float(sediment.boxSize()[1])}
     pores = flow.pores()
     x, volume, drained = np.array(pores["x"]), np.array(pores["volume"]), np.array(pores["pressure"]) == 0.0
     middle = 0.5 * (walls["left"].state.pos[0] + walls["right"].state.pos[0])
-    return {"length": float(np.average(np.abs(x - middle)[drained], weights=volume[drained])), "middle": middle, "halfWidth": 0.5 * float(_box()[0])}
+    return {"length": float(np.average(np.abs(x - middle)[drained], weights=volume[drained])), "middle": middle, "halfWidth": 0.5 * float(sediment.boxSize()[0])}
 
 
 def _theory(kind, material, viscosity, load, geometry):
@@ -229,7 +209,7 @@ def _record(kind, theory, data):
     near = distance < WINDOW[kind] * data["length"]
     data["T"].append(float(theory["diffusivity"] * (O.iter - data["start"]) * O.dt / data["length"] ** 2))
     data["pressure"].append(float(np.average(np.array(pores["pressure"])[near], weights=np.array(pores["volume"])[near])))
-    data["settlement"].append(data["height0"] - float(_box()[1]))
+    data["settlement"].append(data["height0"] - float(sediment.boxSize()[1]))
 
 
 def _evaluateTerzaghi(found, theory, data):

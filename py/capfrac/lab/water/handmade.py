@@ -97,3 +97,10 @@ def advance(time, steps=1):
 def poresOf(engine):
     """What the engine reports of its pores, as arrays."""
     return {name: np.array(values) for name, values in engine.pores().items()}
+
+
+def drainedAt(flow, axis, pressure):
+    """Where along ``axis`` the pores lie that are held at ``pressure``: the mean of their centroids [m]."""
+    pores = poresOf(flow)
+    at = pores["pressure"] == pressure
+    return float(np.average(pores["xy"[axis]][at], weights=pores["volume"][at]))

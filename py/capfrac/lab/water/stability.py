@@ -93,7 +93,7 @@ def _startShaking(sample, bulkModulus, scheme, speed, viscosity, run):
         vx, vy = random.normal(0, speed / math.sqrt(2), 2)
         body.state.vel = (vx, vy, 0)
     if bulkModulus is not None:
-        sediment.insertFlow(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, viscosity=viscosity, timeIntegration=scheme))
+        sediment.insertFluid(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, viscosity=viscosity, timeIntegration=scheme))
     motion, springs = energy()
     run.data.update(scale=motion, springs=springs, begin=O.iter, steps=[0], energy=[1.0], motion=[1.0], ledger=[0.0], pressure=[0.0], end="")
 
@@ -133,7 +133,7 @@ def stir(sample, motion="piston", steps=100_000, strain=0.25, stress=100e3, bulk
 
         while O.iter - data["begin"] < steps:
             servo = sediment.engine("servo")
-            now = 1 - _height() / data["height"]
+            now = 1 - sediment.boxSize()[1] / data["height"]
             if now >= strain or now <= 0:
                 servo.driveVelocity = math.copysign(data["speed"], strain / 2 - now)
             sediment.advance(min(50, steps - (O.iter - data["begin"])))
@@ -148,22 +148,17 @@ def stir(sample, motion="piston", steps=100_000, strain=0.25, stress=100e3, bulk
         "flipsTotal": flow.nFlips, "rebuilds": flow.nRebuilds, "negativeCells": data["negativeCells"], "massDefect": flow.massDefect / flow.initialWater}
 
 
-def _height():
-    walls = sediment.wallBodies()
-    return walls["top"].state.pos[1] - walls["bottom"].state.pos[1]
-
-
 def _startStirring(sample, motion, stress, bulkModulus, viscosity, inertialNumber, localFlips, run):
     from yade import O
     from yade.wrapper import SinglePhaseFlowEngine
 
-    sediment.insertFlow(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, viscosity=viscosity, localFlips=localFlips,
+    sediment.insertFluid(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, viscosity=viscosity, localFlips=localFlips,
                                               wallPressures=[math.nan, math.nan, 0.0, math.nan]))
     servo = sediment.engine("servo")
     servo.drivenWalls, servo.fixedWalls = ["top"], ["bottom", "left", "right"] if motion == "piston" else ["bottom"]
     rate = inertialNumber / (sample.rMin + sample.rMax) * math.sqrt(stress / sample.density)
-    servo.driveVelocity = rate * _height()
-    run.data.update(begin=O.iter, height=_height(), speed=servo.driveVelocity, steps=[], strain=[], ledger=[], flips=[], smallest=[], pressure=[], negativeCells=0)
+    servo.driveVelocity = rate * sediment.boxSize()[1]
+    run.data.update(begin=O.iter, height=sediment.boxSize()[1], speed=servo.driveVelocity, steps=[], strain=[], ledger=[], flips=[], smallest=[], pressure=[], negativeCells=0)
 
 
 def _rowOfStirring(data):
@@ -172,7 +167,7 @@ def _rowOfStirring(data):
     flow = sediment.engine("flow")
     pores, cells = flow.pores(), flow.cells()
     volume = np.array(pores["volume"])
-    for name, value in (("steps", O.iter - data["begin"]), ("strain", 1 - _height() / data["height"]), ("ledger", flow.volumes()["error"]), ("flips", flow.nFlips),
+    for name, value in (("steps", O.iter - data["begin"]), ("strain", 1 - sediment.boxSize()[1] / data["height"]), ("ledger", flow.volumes()["error"]), ("flips", flow.nFlips),
                         ("smallest", volume.min() / volume.mean()), ("pressure", np.max(np.abs(pores["pressure"])))):
         data[name].append(float(value))
     data["negativeCells"] += int((np.array(cells["void"]) < 0).sum())

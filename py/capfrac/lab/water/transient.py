@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from capfrac import sediment
-from capfrac.lab.water.handmade import alone
+from capfrac.lab.water.handmade import alone, drainedAt, poresOf
 from capfrac.lab.water.profiles import PROFILE_TIMES
 
 #: First and last of the steps' ends over T_c [-].
@@ -35,18 +35,17 @@ def steadyFlow(fluid):
     pressure, viscosity = fluid["wallPressures"][3], fluid["viscosity"]
     flow = alone(maxSizeRatio=100, **{**fluid, "bulkModulus": math.inf})
     O.step()
-    pores, walls, grains = flow.pores(), sediment.wallBodies(), sediment.grainBodies()
-    width = walls["right"].state.pos[0] - walls["left"].state.pos[0]
-    box = width * (walls["top"].state.pos[1] - walls["bottom"].state.pos[1])
-    y, p, volume = (np.array(pores[name]) for name in ("y", "pressure", "volume"))
-    low, high = (float(np.average(y[at], weights=volume[at])) for at in (p == 0.0, p == pressure))
+    pores, grains = poresOf(flow), sediment.grainBodies()
+    width, boxHeight = sediment.boxSize()
+    y, p, volume = (pores[name] for name in ("y", "pressure", "volume"))
+    low, high = (drainedAt(flow, 1, prescribed) for prescribed in (0.0, pressure))
     free, flux, height, steady = (p != 0.0) & (p != pressure), flow.inflow()["top"], high - low, p / pressure
     diameter = 2 * float(np.mean([body.shape.radius for body in grains]))
     xi = (y - low) / height
     layers = max(1, round((xi.max() - xi.min()) * height / (LAYER * diameter)))
     layer = np.clip(((xi - xi.min()) / (xi.max() - xi.min()) * layers).astype(int), 0, layers - 1)
     storing = float((volume * steady * (1 - steady)).sum())
-    return {"permeability": viscosity * height * flux / (width * pressure), "porosity": float(volume.sum() / box),
+    return {"permeability": viscosity * height * flux / (width * pressure), "porosity": float(volume.sum() / (width * boxHeight)),
             "porosityBetween": float(volume[free].sum()) / _areaBetween(flow, pressure), "height": height, "width": width, "bottom": low,
             "diameter": diameter, "steadyFlow": flux, "characteristicTime": 6 * pressure / (fluid["bulkModulus"] * flux) * storing,
             "grains": len(grains), "pores": len(y), "xi": xi, "volume": volume, "steady": steady, "free": free, "layer": layer}

@@ -93,7 +93,7 @@ def _compact(sample, stress, strain, bondStrength, inertialNumber, fluid, run):
         if bondStrength > 0:
             sediment.bond(tensileStrength=bondStrength, shearStrength=bondStrength)
         if fluid:
-            sediment.insertFlow(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, **fluid)).prepare()
+            sediment.insertFluid(SinglePhaseFlowEngine(label="flow", maxSizeRatio=100, **fluid)).prepare()
         box.setReference()
         box.mode("uniaxial")
         run.data.update(stress=[], lateral=[], strain=[], pressure=[])
@@ -101,9 +101,9 @@ def _compact(sample, stress, strain, bondStrength, inertialNumber, fluid, run):
     def measure():
         # A halt before each row: the stress on the walls is then that of grains and water at rest, not of waves.
         sediment.advance(200)
-        left, right, bottom, top = sediment.engine("servo").stress
+        lateral, vertical = sediment.wallStresses()
         pressure = meanPressure() if fluid else 0.0
-        for name, value in (("stress", 0.5 * (bottom + top)), ("lateral", 0.5 * (left + right)), ("strain", box.strain()), ("pressure", pressure)):
+        for name, value in (("stress", vertical), ("lateral", lateral), ("strain", box.strain()), ("pressure", pressure)):
             run.data[name].append(float(value))
 
     run.stage("sample", prepare)

@@ -154,9 +154,7 @@ def _compress(sample, pack, bulkModulus, viscosity, units, bonded, damping):
     if bonded:
         strength = units.of(sample.normalStiffness, time=-2, mass=1)  # breaks when pulled apart by a diameter: never
         sediment.bond(tensileStrength=strength, shearStrength=strength)
-    flow, engines = SinglePhaseFlowEngine(label="flow", **fluid), list(O.engines)
-    engines.insert(engines.index(sediment.engine("servo")), flow)
-    O.engines = engines
+    flow = sediment.insertFluid(SinglePhaseFlowEngine(label="flow", **fluid))
     wall, rows = sediment.wallBodies()["top"], []
     wall.state.vel = (0, -units.of(STRAIN * (top - bottom) / (STEPS * step), length=1, time=-1), 0)
     for _ in range(ROWS):
