@@ -31,6 +31,8 @@ protected:
 
 private:
 	Real                     capillaryPressure() const { return gasPressure - waterPressure; }
+	/// Pressure of the gas in a cell that holds gas [Pa].
+	Real                     pressureOfGas(int /*cell*/) const { return gasPressure; }
 	Real                     throatEntryPressure(int edge) const;
 	bool                     gasCanAdvance() const;
 	capfrac::DrainageNetwork drainageNetwork() const;
@@ -79,7 +81,7 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((Real,inletFrom,0,,"Begin of the inlet on its wall, a coordinate [m]. Pores whose stretch of wall has its middle in [inletFrom, inletTo] are the inlet."))
 		((Real,inletTo,0,,"End of the inlet on its wall, a coordinate [m]. The width of the inlet controls at which pressure a cohesive sediment opens; it is on record in :yref:`inletPores<GasInvasionEngine.inletPores>`."))
 		((std::vector<Vector2r>,inletPoints,,,"Instead of a stretch of wall: points [m]; the pores that hold them are the inlet."))
-		((std::string,outletWall,"top",Attr::triggerPostLoad,"Wall through which the water leaves; gas that reaches it has broken through [-]."))
+		((std::string,outletWall,"top",Attr::triggerPostLoad,"Wall through which the water leaves, or ``'any'`` for all four; gas that reaches it has broken through [-]."))
 		((bool,trapping,false,,"Whether water that is cut off from the outlet stays (true) or drains by films (false) [-]."))
 		((Real,openingThreshold,0.01,Attr::triggerPostLoad,"A throat counts as opened, not rigid, when its gap has grown by more than this many mean radii since the start, or its bond is broken [-], > 0."))
 		((int,invasionInterval,0,Attr::triggerPostLoad,"Steps between one invaded pore and the next [-], >= 0. 0: the grains stand still during an avalanche, as in a rigid sediment. Otherwise the grains answer to each pore before the gas takes the next one, and a throat that opens at a fracture's tip comes before a rigid one with a higher entry pressure."))

@@ -18,6 +18,14 @@ int wallFromName(const std::string& attribute, const std::string& name)
 	return static_cast<int>(found - names.begin());
 }
 
+std::vector<int> wallsFromName(const std::string& attribute, const std::string& name)
+{
+	if (name == "any") return { 0, 1, 2, 3 };
+	if (std::find(names.begin(), names.end(), name) == names.end())
+		capfrac::refuseAttribute(attribute, "'" + name + "'", "'left', 'right', 'bottom', 'top', 'any'");
+	return { wallFromName(attribute, name) };
+}
+
 std::vector<WallStretch>
 wallStretches(const capfrac::Triangulation& mesh, const capfrac::Domains& domains, const SceneReader& reader, int wall)
 {

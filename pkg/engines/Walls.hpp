@@ -14,6 +14,9 @@ std::string wallName(int wall);
 /// The wall called left, right, bottom or top; throws std::invalid_argument naming `attribute` otherwise.
 int wallFromName(const std::string& attribute, const std::string& name);
 
+/// The walls that `name` stands for: one of them, or all four for any; throws as wallFromName().
+std::vector<int> wallsFromName(const std::string& attribute, const std::string& name);
+
 /// The part of a wall that belongs to one domain, in the coordinate along the wall [m].
 struct WallStretch {
 	int  domain = -1;

@@ -38,7 +38,7 @@ KEYS = (
     Key("gas", "entryLaw", str, "-", "inscribedSphere", "Law of the entry pressure.", choices=("inscribedSphere", "mayerStowePrincen")),
     Key("gas", "trapping", bool, "-", False, "Whether water that is cut off from the outlet stays (true) or drains by films (false)."),
     Key("inlet", "wall", str, "-", "bottom", "Wall with the inlet.", choices=("left", "right", "bottom", "top")),
-    Key("inlet", "outlet", str, "-", "top", "Wall where the water leaves; gas there has broken through.", choices=("left", "right", "bottom", "top")),
+    Key("inlet", "outlet", str, "-", "top", "Wall where the water leaves, or any for all four; gas there has broken through.", choices=("left", "right", "bottom", "top", "any")),
     Key("inlet", "pores", int, "-", 0, "Number of neighbouring pores along the wall that are the inlet, around its middle.", low=0),
     Key("inlet", "from", float, "m", None, "Instead of pores: begin of the inlet, from the left (lower) end of its wall.", low=0),
     Key("inlet", "to", float, "m", None, "Instead of pores: end of the inlet, from the left (lower) end of its wall.", low=0),
