@@ -10,42 +10,6 @@ namespace capfrac {
 
 namespace {
 
-	void checkSkeleton(const FlowNetwork& network, const Skeleton& skeleton)
-	{
-		const std::size_t n = skeleton.mass.size();
-		if (skeleton.velocity.size() != n || skeleton.force.size() != n)
-			throw FlowError("skeleton: " + std::to_string(n) + " masses, " + std::to_string(skeleton.velocity.size()) + " velocities and "
-			                + std::to_string(skeleton.force.size()) + " forces, allowed: one of each per degree of freedom");
-		if (!(skeleton.damping >= 0 && skeleton.damping < 1)) refuseStep("local damping [-]", skeleton.damping, "0 <= damping < 1");
-		for (std::size_t f = 0; f < n; ++f) {
-			// Names are put together only when something is wrong: this runs every step.
-			if (skeleton.mass[f] > 0 && std::isfinite(skeleton.velocity[f]) && std::isfinite(skeleton.force[f])) continue;
-			const std::string of = " of degree of freedom " + std::to_string(f);
-			if (!(skeleton.mass[f] > 0)) refuseStep("mass [kg]" + of, skeleton.mass[f], "> 0 (infinity: prescribed motion)");
-			if (!std::isfinite(skeleton.velocity[f])) refuseStep("velocity [m/s]" + of, skeleton.velocity[f], "a finite number");
-			refuseStep("force [N]" + of, skeleton.force[f], "a finite number");
-		}
-		const int nPores = static_cast<int>(network.pores.size());
-		for (const VolumeEntry& e : skeleton.gradient)
-			if (e.pore < 0 || e.pore >= nPores || e.freedom < 0 || e.freedom >= static_cast<int>(n) || !std::isfinite(e.value))
-				refuseStep("volume gradient of pore " + std::to_string(e.pore) + " by degree of freedom " + std::to_string(e.freedom), e.value,
-				       "finite, of a pore and a degree of freedom that exist");
-	}
-
-	/// B by columns, entries of the same place added up, sorted.
-	std::vector<VolumeEntry> byFreedom(std::vector<VolumeEntry> entries)
-	{
-		std::stable_sort(entries.begin(), entries.end(), [](const VolumeEntry& s, const VolumeEntry& t) {
-			return std::tie(s.freedom, s.pore) < std::tie(t.freedom, t.pore);
-		});
-		std::vector<VolumeEntry> merged;
-		for (const VolumeEntry& e : entries)
-			if (!merged.empty() && merged.back().freedom == e.freedom && merged.back().pore == e.pore) merged.back().value += e.value;
-			else
-				merged.push_back(e);
-		return merged;
-	}
-
 	bool isSorted(const std::vector<VolumeEntry>& entries)
 	{
 		for (std::size_t k = 1; k < entries.size(); ++k)
@@ -92,23 +56,6 @@ namespace {
 		return true;
 	}
 
-	/// Adds dt (1 + lambda) B M^-1 B^T. Both degrees of freedom of a grain go into one entry for each pair of its pores.
-	void addMobility(Assembly& assembly, const std::vector<VolumeEntry>& b, const Skeleton& skeleton, double dt)
-	{
-		std::size_t done = 0; // up to here twins have been added already
-		forEachFree(b, skeleton, [&](std::size_t from, std::size_t to) {
-			if (from < done) return;
-			const std::size_t size = to - from;
-			const double      mobility = dt * (1 + skeleton.damping) / skeleton.mass[b[from].freedom];
-			const bool        twin     = hasTwin(b, from, to) && std::isfinite(skeleton.mass[b[to].freedom]);
-			const double      other    = twin ? dt * (1 + skeleton.damping) / skeleton.mass[b[to].freedom] : 0;
-			if (twin) done = to + size;
-			for (std::size_t k = from; k < to; ++k)
-				for (std::size_t l = from; l <= k; ++l)
-					assembly.add(b[k].pore, b[l].pore, mobility * b[k].value * b[l].value + (twin ? other * b[k + size].value * b[l + size].value : 0));
-		});
-	}
-
 	/// Whether grains or boundaries set the pressure of every cluster of an incompressible fluid.
 	void checkDetermined(const FlowNetwork& network, const std::vector<VolumeEntry>& b, const Skeleton& skeleton)
 	{
@@ -121,6 +68,73 @@ namespace {
 	}
 
 } // namespace
+
+void checkSkeleton(int nPores, const Skeleton& skeleton)
+{
+	const std::size_t n = skeleton.mass.size();
+	if (skeleton.velocity.size() != n || skeleton.force.size() != n)
+		throw FlowError("skeleton: " + std::to_string(n) + " masses, " + std::to_string(skeleton.velocity.size()) + " velocities and "
+		                + std::to_string(skeleton.force.size()) + " forces, allowed: one of each per degree of freedom");
+	if (!(skeleton.damping >= 0 && skeleton.damping < 1)) refuseStep("local damping [-]", skeleton.damping, "0 <= damping < 1");
+	for (std::size_t f = 0; f < n; ++f) {
+		// Names are put together only when something is wrong: this runs every step.
+		if (skeleton.mass[f] > 0 && std::isfinite(skeleton.velocity[f]) && std::isfinite(skeleton.force[f])) continue;
+		const std::string of = " of degree of freedom " + std::to_string(f);
+		if (!(skeleton.mass[f] > 0)) refuseStep("mass [kg]" + of, skeleton.mass[f], "> 0 (infinity: prescribed motion)");
+		if (!std::isfinite(skeleton.velocity[f])) refuseStep("velocity [m/s]" + of, skeleton.velocity[f], "a finite number");
+		refuseStep("force [N]" + of, skeleton.force[f], "a finite number");
+	}
+	for (const VolumeEntry& e : skeleton.gradient)
+		if (e.pore < 0 || e.pore >= nPores || e.freedom < 0 || e.freedom >= static_cast<int>(n) || !std::isfinite(e.value))
+			refuseStep("volume gradient of pore " + std::to_string(e.pore) + " by degree of freedom " + std::to_string(e.freedom), e.value,
+			       "finite, of a pore and a degree of freedom that exist");
+}
+
+std::vector<VolumeEntry> sortedGradient(std::vector<VolumeEntry> entries)
+{
+	std::stable_sort(entries.begin(), entries.end(), [](const VolumeEntry& s, const VolumeEntry& t) {
+		return std::tie(s.freedom, s.pore) < std::tie(t.freedom, t.pore);
+	});
+	std::vector<VolumeEntry> merged;
+	for (const VolumeEntry& e : entries)
+		if (!merged.empty() && merged.back().freedom == e.freedom && merged.back().pore == e.pore) merged.back().value += e.value;
+		else
+			merged.push_back(e);
+	return merged;
+}
+
+/// Both degrees of freedom of a grain go into one entry for each pair of its pores.
+void addMobility(Assembly& assembly, const std::vector<VolumeEntry>& b, const Skeleton& skeleton, double dt)
+{
+	std::size_t done = 0; // up to here twins have been added already
+	forEachFree(b, skeleton, [&](std::size_t from, std::size_t to) {
+		if (from < done) return;
+		const std::size_t size = to - from;
+		const double      mobility = dt * (1 + skeleton.damping) / skeleton.mass[b[from].freedom];
+		const bool        twin     = hasTwin(b, from, to) && std::isfinite(skeleton.mass[b[to].freedom]);
+		const double      other    = twin ? dt * (1 + skeleton.damping) / skeleton.mass[b[to].freedom] : 0;
+		if (twin) done = to + size;
+		for (std::size_t k = from; k < to; ++k)
+			for (std::size_t l = from; l <= k; ++l)
+				assembly.add(b[k].pore, b[l].pore, mobility * b[k].value * b[l].value + (twin ? other * b[k + size].value * b[l + size].value : 0));
+	});
+}
+
+std::vector<double> volumeRates(const std::vector<VolumeEntry>& b, const Skeleton& skeleton, const std::vector<double>& load, double dt)
+{
+	std::vector<double> rates(load.size(), 0);
+	for (std::size_t from = 0, to = 0; from < b.size(); from = to) {
+		const int f     = b[from].freedom;
+		double    force = skeleton.force[f];
+		for (; to < b.size() && b[to].freedom == f; ++to)
+			force += b[to].value * load[b[to].pore];
+		// An infinite mass leaves the prescribed velocity as it is.
+		const double velocity = skeleton.velocity[f] + dt * (1 + skeleton.damping) * force / skeleton.mass[f];
+		for (std::size_t k = from; k < to; ++k)
+			rates[b[k].pore] += b[k].value * velocity;
+	}
+	return rates;
+}
 
 std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const std::vector<int>& poreOfCell, int nGrains, double thickness)
 {
@@ -159,7 +173,7 @@ std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const st
 	std::vector<VolumeEntry> walls;
 	for (const auto& w : gradients.walls)
 		if (poreOfCell[w.cell] >= 0) walls.push_back({ poreOfCell[w.cell], 2 * nGrains + w.wall, thickness * w.outward });
-	walls = byFreedom(std::move(walls));
+	walls = sortedGradient(std::move(walls));
 	entries.insert(entries.end(), walls.begin(), walls.end());
 	return entries;
 }
@@ -168,8 +182,8 @@ FlowStep coupledStep(FlowNetwork& network, const Skeleton& skeleton, double dt, 
 {
 	checkStep(dt);
 	checkNetwork(network);
-	checkSkeleton(network, skeleton);
-	const auto  sorted = isSorted(skeleton.gradient) ? std::vector<VolumeEntry>() : byFreedom(skeleton.gradient);
+	checkSkeleton(static_cast<int>(network.pores.size()), skeleton);
+	const auto  sorted = isSorted(skeleton.gradient) ? std::vector<VolumeEntry>() : sortedGradient(skeleton.gradient);
 	const auto& b      = sorted.empty() ? skeleton.gradient : sorted;
 	if (network.incompressible()) checkDetermined(network, b, skeleton);
 	FlowStep step;
@@ -177,22 +191,15 @@ FlowStep coupledStep(FlowNetwork& network, const Skeleton& skeleton, double dt, 
 	Assembly assembly(network);
 	assembly.addStorage(step.volume, dt);
 	assembly.addCompression(skeleton.compression, dt);
-	for (const VolumeEntry& e : b) {
-		// An infinite mass leaves the prescribed velocity as it is.
-		// The same mobility as in the matrix: else grains at rest, F_c + B^T p = 0, would seem to give way for ever.
-		const double dryVelocity = skeleton.velocity[e.freedom] + dt * (1 + skeleton.damping) * skeleton.force[e.freedom] / skeleton.mass[e.freedom];
-		assembly.addRight(e.pore, -e.value * dryVelocity);
-		step.volume[e.pore] += dt * e.value * dryVelocity;
-	}
+	// The same mobility as in the matrix: else grains at rest, F_c + B^T p = 0, would seem to give way for ever.
+	const auto dry = volumeRates(b, skeleton, std::vector<double>(step.volume.size(), 0), dt);
+	for (std::size_t i = 0; i < dry.size(); ++i)
+		assembly.addRight(static_cast<int>(i), -dry[i]);
 	addMobility(assembly, b, skeleton, dt);
 	assembly.solve(solver, step);
-	forEachFree(b, skeleton, [&](std::size_t from, std::size_t to) {
-		double force = 0;
-		for (std::size_t k = from; k < to; ++k)
-			force += b[k].value * step.pressure[b[k].pore];
-		for (std::size_t k = from; k < to; ++k)
-			step.volume[b[k].pore] += dt * dt * (1 + skeleton.damping) / skeleton.mass[b[k].freedom] * b[k].value * force;
-	});
+	const auto rates = volumeRates(b, skeleton, step.pressure, dt);
+	for (std::size_t i = 0; i < rates.size(); ++i)
+		step.volume[i] += dt * rates[i];
 	step.growth = radiusGrowth(skeleton.compression, step.pressure);
 	addGrowth(skeleton.compression, step.growth, step.volume);
 	moveMass(network, dt, step);

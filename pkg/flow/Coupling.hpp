@@ -9,6 +9,8 @@
 
 namespace capfrac {
 
+class Assembly;
+
 /// dV/dx of a pore with respect to one degree of freedom [m^2].
 struct VolumeEntry {
 	int    pore = -1, freedom = -1;
@@ -29,6 +31,18 @@ struct Skeleton {
 /// degrees of freedom 2i and 2i + 1, wall w has 2 nGrains + w (along its outward normal); times the
 /// `thickness` [m]. Sorted by degree of freedom, then pore, one entry for each place.
 std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const std::vector<int>& poreOfCell, int nGrains, double thickness);
+
+/// Adds dt (1 + lambda) B M^-1 B^T to a system; `b` as in Skeleton, sorted by freedom, then pore.
+void addMobility(Assembly& assembly, const std::vector<VolumeEntry>& b, const Skeleton& skeleton, double dt);
+
+/// Rates of the volumes of the pores [m^3/s] under the pressures `load` [Pa], B (v + dt (1 + lambda) M^-1 (F_c + B^T load)); `b` as above.
+std::vector<double> volumeRates(const std::vector<VolumeEntry>& b, const Skeleton& skeleton, const std::vector<double>& load, double dt);
+
+/// The entries sorted by freedom, then pore, those of the same place added up.
+std::vector<VolumeEntry> sortedGradient(std::vector<VolumeEntry> entries);
+
+/// Checks the numbers of a skeleton of so many pores. Throws FlowError.
+void checkSkeleton(int nPores, const Skeleton& skeleton);
 
 /// Backward Euler stable together with an explicit step of the grains, at the time step of the dry grains
 /// and at any K_f, infinity included. The leapfrog v' = v + dt (F_c + B^T p')/m, x' = x + dt v' moves the

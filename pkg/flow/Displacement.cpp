@@ -1,0 +1,164 @@
+#include "Displacement.hpp"
+#include "Assembly.hpp"
+#include "DisplacementPart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace capfrac {
+
+namespace {
+
+	/// Water left over, as a share of the pore, with which it counts as full; it stays there.
+	constexpr double full = 1e-6;
+
+	class Displacement {
+	public:
+		Displacement(TwoFluidNetwork& network_, const Skeleton* skeleton_, double dt_, PressureSolver& solver_, const DisplacementOptions& options_)
+		        : network(network_)
+		        , skeleton(skeleton_)
+		        , dt(dt_)
+		        , solver(solver_)
+		        , options(options_)
+		{
+			for (const auto& pore : network.pores)
+				volume.push_back(pore.volume);
+			if (skeleton) gradient = sortedGradient(skeleton->gradient);
+			step.load.assign(volume.size(), 0), step.supply.assign(volume.size(), 0);
+			open.assign(network.throats.size(), 0);
+		}
+
+		DisplacementStep run()
+		{
+			turnFull();
+			for (double left = dt; left > 0;) {
+				DisplacementPart part(network, volume, skeleton, gradient, dt, solver);
+				double           h     = left;
+				const auto       trial = nextPart(part, h);
+				accept(part, trial, h);
+				left = h < left ? left - h : 0;
+				turnFull();
+			}
+			for (const auto& pore : network.pores)
+				step.water.held += pore.water, step.gas.held += pore.gas;
+			return std::move(step);
+		}
+
+	private:
+		/// The trial of a part, `h` shortened until no pore gains too much gas, and none loses more water than it has.
+		DisplacementTrial nextPart(DisplacementPart& part, double& h)
+		{
+			auto trial = attempt(part, h);
+			for (double gain; (gain = largestGain(trial)) > options.maxFilling;)
+				trial = attempt(part, h *= std::max(0.1, 0.9 * options.maxFilling / gain));
+			// The water that is left in the emptiest pore falls from `before` at 0 to `after` at h; find where it is nearly gone.
+			double low = 0, before = leastWater({}), high = h, after = leastWater(&trial);
+			while (after < 0 || before <= 0) {
+				const double root = low + (high - low) * std::clamp((before - 0.5 * full) / (before - after), 0.05, 0.95);
+				trial             = attempt(part, h = root);
+				const double now  = leastWater(&trial);
+				if (now >= 0 && now <= full) break;
+				(now > 0 ? low : high) = root, (now > 0 ? before : after) = now;
+				if (high - low < 1e-15 * dt) throw FlowError("a pore fills faster than the time step can be divided; allowed: a shorter time step");
+			}
+			return trial;
+		}
+
+		DisplacementTrial attempt(DisplacementPart& part, double h)
+		{
+			auto trial = part.end(h, open);
+			step.iterations += trial.iterations, step.factored += trial.factored;
+			return trial;
+		}
+
+		double largestGain(const DisplacementTrial& trial) const
+		{
+			double largest = 0;
+			for (std::size_t i = 0; i < volume.size(); ++i)
+				if (!network.pores[i].isGas && trial.gas[i] > network.pores[i].gas)
+					largest = std::max(largest, gasVolume(network.fluids, trial.gas[i] - network.pores[i].gas, trial.pressure[i] + trial.held[i]) / volume[i]);
+			return largest;
+		}
+
+		/// Water over volume of the pore of water with gas that has least of it; now, or at the end of a trial.
+		double leastWater(const DisplacementTrial* trial) const
+		{
+			double least = 1;
+			for (std::size_t i = 0; i < volume.size(); ++i)
+				if (!network.pores[i].isGas && (trial ? trial->gas[i] : network.pores[i].gas) > 0)
+					least = std::min(least, (trial ? trial->water[i] : network.pores[i].water) / volume[i]);
+			return least;
+		}
+
+		void accept(const DisplacementPart& part, const DisplacementTrial& trial, double h)
+		{
+			for (std::size_t t = 0; t < network.throats.size(); ++t) {
+				const int pore = part.waterBehind(static_cast<int>(t));
+				if (pore < 0 || trial.throatFlow[t] == 0 || network.pores[pore].gas > 0 || known(pore)) continue;
+				step.entries.push_back({ static_cast<int>(t), pore, time });
+			}
+			const double films = trial.films * h;
+			step.water.out += films;
+			for (std::size_t i = 0; i < volume.size(); ++i) {
+				auto& pore = network.pores[i];
+				auto& own  = pore.isGas ? step.gas : step.water;
+				book(own, h * (pore.source + trial.supply[i]));
+				step.water.stored += trial.water[i] - pore.water, step.gas.stored += trial.gas[i] - pore.gas;
+				pore.water = trial.water[i], pore.gas = trial.gas[i], pore.held = trial.held[i], pore.pressure = trial.pressure[i];
+				step.load[i] += h / dt * trial.load[i];
+				step.supply[i] += h / dt * trial.supply[i];
+			}
+			volume = trial.volume, open = trial.open;
+			time += h;
+			++step.parts;
+		}
+
+		/// Whether gas has entered the pore in this very part, through another throat.
+		bool known(int pore) const
+		{
+			return std::any_of(step.entries.rbegin(), step.entries.rend(), [&](const GasEntry& entry) { return entry.pore == pore && entry.time == time; });
+		}
+
+		static void book(FlowLedger& ledger, double amount) { (amount > 0 ? ledger.in : ledger.out) += std::abs(amount); }
+
+		void turnFull()
+		{
+			for (std::size_t i = 0; i < volume.size(); ++i) {
+				auto& pore = network.pores[i];
+				if (pore.isGas || pore.gas == 0 || pore.water > full * volume[i]) continue;
+				pore.isGas = true;
+				pore.pressure += std::exchange(pore.held, 0);
+				pore.source = 0; // of water
+				pore.fixedPressure.reset();
+				step.filled.push_back({ static_cast<int>(i), time });
+			}
+		}
+
+		TwoFluidNetwork&          network;
+		const Skeleton*           skeleton;
+		double                    dt;
+		PressureSolver&           solver;
+		DisplacementOptions       options;
+		std::vector<VolumeEntry>  gradient;
+		std::vector<double>       volume;
+		std::vector<std::uint8_t> open;
+		double                    time = 0;
+		DisplacementStep          step;
+	};
+
+} // namespace
+
+DisplacementStep displace(TwoFluidNetwork& network, const Skeleton* skeleton, double dt, PressureSolver& solver, const DisplacementOptions& options)
+{
+	checkStep(dt);
+	checkTwoFluidNetwork(network);
+	if (!(options.maxFilling > 0)) refuseStep("maxFilling [-]", options.maxFilling, "> 0");
+	if (skeleton) checkSkeleton(static_cast<int>(network.pores.size()), *skeleton);
+	auto moved = network; // a step that fails leaves nothing behind
+	auto step  = Displacement(moved, skeleton, dt, solver, options).run();
+	network    = std::move(moved);
+	return step;
+}
+
+} // namespace capfrac

@@ -1,0 +1,59 @@
+#pragma once
+
+/// Gas displaces water, both viscous and compressible, between grains that may move.
+///
+/// Water flows between pores of water, gas between pores of gas, each with the conductance of the throat over its own
+/// viscosity. From a pore of gas to a neighbour of water the throat is shut until the difference of their pressures
+/// exceeds the entry pressure s; then gas flows in, at G (p_g - p_w - s), and the neighbour's water gives way. When its last
+/// water has left, the neighbour is a pore of gas. Gas does not recede: a throat where the difference falls
+/// below s is shut again (no imbibition). The viscosity in a throat that gas has just passed is that of what
+/// fills the pore behind it, in proportion.
+///
+/// A step is backward Euler, in parts that end when a pore is full. Which throats are open belongs to the unknowns: found together
+/// with the pressures by Newton's method. Fluids move by the flows found, so both amounts are kept to round-off whatever the
+/// pressures; where what a pore holds does not fill it exactly, the next part starts from there and makes up for it.
+
+#include "Coupling.hpp"
+#include "TwoFluids.hpp"
+
+#include <cstdint>
+
+namespace capfrac {
+
+/// The first gas in a pore of water.
+struct GasEntry {
+	int    throat = -1, pore = -1;
+	double time = 0; ///< after the beginning of the step [s]
+};
+
+/// A pore of water that became one of gas.
+struct PoreFilled {
+	int    pore = -1;
+	double time = 0; ///< after the beginning of the step [s]
+};
+
+struct DisplacementStep {
+	std::vector<double>     load;    ///< pressures that load the grains, mean over the step [Pa]: p + s times the share of gas
+	std::vector<double>     supply;  ///< from outside into the pores of fixed pressure, mean over the step [m^3/s, as amount]
+	std::vector<GasEntry>   entries; ///< in the order of time
+	std::vector<PoreFilled> filled;  ///< in the order of time
+	FlowLedger              water, gas; ///< [m^3, as amounts]
+	int                     parts      = 0; ///< that the step was divided into
+	int                     iterations = 0; ///< of Newton's method, all parts together
+	int                     factored   = 0; ///< factorizations
+};
+
+struct DisplacementOptions {
+	double maxFilling = 0.5; ///< share of a pore's volume that gas may gain in one part of a step [-], > 0
+};
+
+/// Moves both fluids for `dt` [s]. Amounts, pressures and phases in the network are brought to the end of the step; the
+/// volumes stay those of the beginning: the caller moves the grains, under `DisplacementStep::load`, in the same step.
+/// `skeleton` (null: grains stand still) as in coupledStep(): the step foresees how grains give way and is stable
+/// at the time step of the dry grains.
+///
+/// Throws FlowError as checkTwoFluidNetwork() and checkSkeleton() do, for a dt that is not positive, and where pressures
+/// are not found (naming the pore); PressureSolverError as the solver does; GasLawError where the gas leaves the range of its law. The network is then as before.
+DisplacementStep displace(TwoFluidNetwork& network, const Skeleton* skeleton, double dt, PressureSolver& solver, const DisplacementOptions& options = {});
+
+} // namespace capfrac

@@ -1,0 +1,261 @@
+#include "DisplacementPart.hpp"
+#include "Assembly.hpp"
+
+#include "../network/UnionFind.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace capfrac {
+
+namespace {
+
+	/// Of the pressures, relative to the largest there is: what is left is made up for by the next part.
+	constexpr double accuracy = 1e-7;
+	/// Between opening and shutting of a throat, likewise: keeps it from doing both for ever.
+	constexpr double slack          = 1e-9;
+	constexpr int    maxIterations  = 60;
+
+} // namespace
+
+DisplacementPart::DisplacementPart(const TwoFluidNetwork& network_, const std::vector<double>& volume_, const Skeleton* skeleton_,
+        const std::vector<VolumeEntry>& gradient_, double dt_, PressureSolver& solver_)
+        : network(network_)
+        , volume(volume_)
+        , skeleton(skeleton_)
+        , gradient(gradient_)
+        , dt(dt_)
+        , solver(solver_)
+{
+	for (const auto& pore : network.pores)
+		share.push_back(pore.isGas ? 1 : gasShare(network.fluids, pore));
+	findBeyond();
+	for (std::size_t t = 0; t < network.throats.size(); ++t)
+		viscosity.push_back(viscosityIn(static_cast<int>(t)));
+	if (network.filmConductance > 0) findLocked();
+}
+
+void DisplacementPart::findBeyond()
+{
+	for (const auto& t : network.throats) {
+		const bool a = network.pores[t.a].isGas, b = network.pores[t.b].isGas;
+		beyond.push_back(a == b ? -1 : a ? t.b : t.a);
+	}
+}
+
+double DisplacementPart::viscosityIn(int throat) const
+{
+	const auto& fluids = network.fluids;
+	if (const int pore = beyond[throat]; pore >= 0) return share[pore] * fluids.gasViscosity + (1 - share[pore]) * fluids.waterViscosity;
+	return network.pores[network.throats[throat].a].isGas ? fluids.gasViscosity : fluids.waterViscosity;
+}
+
+void DisplacementPart::findLocked()
+{
+	UnionFind                 clusters(static_cast<int>(network.pores.size()));
+	std::vector<std::uint8_t> grounded(network.pores.size(), 0);
+	for (const auto& t : network.throats)
+		if (t.conductance > 0 && !network.pores[t.a].isGas && !network.pores[t.b].isGas) clusters.join(t.a, t.b);
+	for (std::size_t i = 0; i < network.pores.size(); ++i)
+		if (network.pores[i].fixedPressure && !network.pores[i].isGas) grounded[clusters.find(static_cast<int>(i))] = 1;
+	for (std::size_t i = 0; i < network.pores.size(); ++i)
+		locked.push_back(!network.pores[i].isGas && !grounded[clusters.find(static_cast<int>(i))]);
+}
+
+void DisplacementPart::findFlows(DisplacementTrial& trial) const
+{
+	trial.throatFlow.resize(network.throats.size());
+	for (std::size_t t = 0; t < network.throats.size(); ++t) {
+		const auto&  throat = network.throats[t];
+		const double g      = throat.conductance / viscosity[t];
+		const double drop   = trial.pressure[throat.a] - trial.pressure[throat.b];
+		if (beyond[t] < 0) trial.throatFlow[t] = g * drop;
+		else if (!trial.open[t])
+			trial.throatFlow[t] = 0;
+		else { // gas never comes back
+			const double sign   = beyond[t] == throat.b ? 1 : -1;
+			trial.throatFlow[t] = sign * g * std::max(0.0, sign * drop - throat.entryPressure);
+		}
+	}
+}
+
+void DisplacementPart::moveAmounts(DisplacementTrial& trial, double h) const
+{
+	for (std::size_t i = 0; i < network.pores.size(); ++i) {
+		const auto& pore = network.pores[i];
+		trial.water[i]   = pore.water + (pore.isGas ? 0 : h * pore.source);
+		trial.gas[i]     = pore.gas + (pore.isGas ? h * pore.source : 0);
+		trial.held[i]    = pore.held;
+	}
+	trial.films = 0;
+	for (std::size_t i = 0; i < locked.size(); ++i)
+		if (locked[i]) {
+			const double flow = network.filmConductance * std::max(0.0, trial.pressure[i] - network.filmPressure);
+			trial.water[i] -= h * flow;
+			trial.films += flow;
+		}
+	std::vector<double> lowest(network.pores.size(), -1); // entry pressure that gas new to a pore has overcome
+	for (std::size_t t = 0; t < network.throats.size(); ++t) {
+		const auto& throat = network.throats[t];
+		if (beyond[t] < 0 && !network.pores[throat.a].isGas) {
+			trial.water[throat.a] -= h * trial.throatFlow[t], trial.water[throat.b] += h * trial.throatFlow[t];
+			continue;
+		}
+		if (trial.throatFlow[t] == 0) continue;
+		const int    from   = trial.throatFlow[t] > 0 ? throat.a : throat.b;
+		const double amount = h * trial.throatFlow[t] * gasRatio(network.fluids, trial.pressure[from]);
+		trial.gas[throat.a] -= amount, trial.gas[throat.b] += amount;
+		if (const int pore = beyond[t]; pore >= 0 && network.pores[pore].gas == 0)
+			lowest[pore] = lowest[pore] < 0 ? throat.entryPressure : std::min(lowest[pore], throat.entryPressure);
+	}
+	for (std::size_t i = 0; i < lowest.size(); ++i)
+		if (lowest[i] >= 0) trial.held[i] = lowest[i];
+}
+
+void DisplacementPart::supplyReservoirs(DisplacementTrial& trial, double h) const
+{
+	const auto& fluids = network.fluids;
+	for (std::size_t i = 0; i < network.pores.size(); ++i) {
+		const auto& pore = network.pores[i];
+		trial.supply[i]  = 0;
+		if (!pore.fixedPressure) continue;
+		const double p = trial.pressure[i];
+		double&      own = pore.isGas ? trial.gas[i] : trial.water[i];
+		const double full = pore.isGas ? (trial.volume[i] - waterVolume(fluids, trial.water[i], p)) * gasRatio(fluids, p)
+		                               : (trial.volume[i] - gasVolume(fluids, trial.gas[i], p + trial.held[i])) * (1 + p / fluids.waterBulkModulus);
+		trial.supply[i] = (full - own) / h;
+		own             = full;
+	}
+}
+
+void DisplacementPart::evaluate(DisplacementTrial& trial, double h) const
+{
+	findFlows(trial);
+	moveAmounts(trial, h);
+	for (std::size_t i = 0; i < share.size(); ++i)
+		trial.load[i] = trial.pressure[i] + share[i] * network.pores[i].held;
+	trial.volume = volume;
+	if (skeleton) {
+		const auto rates = volumeRates(gradient, *skeleton, trial.load, dt);
+		for (std::size_t i = 0; i < rates.size(); ++i)
+			trial.volume[i] += h * rates[i];
+	}
+	supplyReservoirs(trial, h);
+}
+
+double DisplacementPart::residual(const DisplacementTrial& trial, int i) const
+{
+	return trial.volume[i] - waterVolume(network.fluids, trial.water[i], trial.pressure[i])
+	        - gasVolume(network.fluids, trial.gas[i], trial.pressure[i] + trial.held[i]);
+}
+
+double DisplacementPart::storage(const DisplacementTrial& trial, int i) const
+{
+	return storageOf(network.fluids, std::max(0.0, trial.water[i]), std::max(0.0, trial.gas[i]), trial.pressure[i], trial.held[i]);
+}
+
+double DisplacementPart::scaleOf(const DisplacementTrial& trial) const
+{
+	double scale = 0;
+	for (double p : trial.pressure)
+		scale = std::max(scale, std::abs(p));
+	for (std::size_t t = 0; t < beyond.size(); ++t)
+		if (beyond[t] >= 0) scale = std::max(scale, network.throats[t].entryPressure);
+	return scale;
+}
+
+bool DisplacementPart::openAndShut(DisplacementTrial& trial, double margin) const
+{
+	bool changed = false;
+	for (std::size_t t = 0; t < beyond.size(); ++t) {
+		if (beyond[t] < 0) continue;
+		const auto&  throat = network.throats[t];
+		const double drop   = (beyond[t] == throat.b ? 1 : -1) * (trial.pressure[throat.a] - trial.pressure[throat.b]);
+		const bool   open   = drop > throat.entryPressure + (trial.open[t] ? 0 : margin);
+		if (open == static_cast<bool>(trial.open[t])) continue;
+		trial.open[t] = open;
+		changed       = true;
+	}
+	return changed;
+}
+
+double DisplacementPart::conductance(const DisplacementTrial& trial, std::size_t t) const
+{
+	return beyond[t] < 0 || trial.open[t] ? network.throats[t].conductance / viscosity[t] : 0;
+}
+
+std::vector<double> DisplacementPart::errors(const DisplacementTrial& trial, double h) const
+{
+	std::vector<double> diagonal(volume.size()), error(volume.size());
+	for (std::size_t i = 0; i < diagonal.size(); ++i)
+		diagonal[i] = storage(trial, static_cast<int>(i));
+	for (std::size_t t = 0; t < network.throats.size(); ++t) {
+		const double g = h * conductance(trial, t);
+		diagonal[network.throats[t].a] += g, diagonal[network.throats[t].b] += g;
+	}
+	constexpr double roundOff = 8 * std::numeric_limits<double>::epsilon(); // in the sum of volumes
+	for (std::size_t i = 0; i < error.size(); ++i)
+		error[i] = std::max(0.0, std::abs(residual(trial, static_cast<int>(i))) - roundOff * volume[i]) / diagonal[i];
+	return error;
+}
+
+void DisplacementPart::correct(DisplacementTrial& trial, double h)
+{
+	// The flows of gas are linearized as volumes at one density: that keeps the matrix symmetric, and the pressures of gas
+	// that hangs together differ little.
+	FlowNetwork linear;
+	linear.pores.resize(volume.size());
+	for (std::size_t i = 0; i < volume.size(); ++i)
+		if (network.pores[i].fixedPressure) linear.pores[i].fixedPressure = *network.pores[i].fixedPressure - trial.pressure[i];
+	for (std::size_t t = 0; t < network.throats.size(); ++t) {
+		const auto& throat = network.throats[t];
+		linear.throats.push_back({ throat.a, throat.b, conductance(trial, t) });
+	}
+	for (std::size_t i = 0; i < locked.size(); ++i)
+		if (locked[i] && trial.pressure[i] > network.filmPressure) linear.links.push_back({ static_cast<int>(i), 0, network.filmConductance });
+	Assembly assembly(linear);
+	for (std::size_t i = 0; i < volume.size(); ++i) {
+		const int pore = static_cast<int>(i);
+		assembly.add(pore, pore, storage(trial, pore) / h);
+		assembly.addRight(pore, -residual(trial, pore) / h);
+	}
+	if (skeleton) addMobility(assembly, gradient, *skeleton, dt);
+	FlowStep step;
+	assembly.solve(solver, step);
+	trial.factored += step.factored;
+	for (std::size_t i = 0; i < volume.size(); ++i) {
+		const double p = trial.pressure[i] + step.pressure[i];
+		// A Newton step from afar may leave the range of the gas law: never more than nine tenths of the way to vacuum.
+		const double vacuum = -(network.fluids.datum + trial.held[i]);
+		trial.pressure[i]   = trial.gas[i] > 0 ? std::max(p, vacuum + 0.1 * (trial.pressure[i] - vacuum)) : p;
+	}
+}
+
+DisplacementTrial DisplacementPart::end(double h, const std::vector<std::uint8_t>& open)
+{
+	DisplacementTrial trial;
+	const std::size_t n = network.pores.size();
+	for (const auto& pore : network.pores)
+		trial.pressure.push_back(pore.fixedPressure.value_or(pore.pressure));
+	trial.water.resize(n), trial.gas.resize(n), trial.held.resize(n), trial.load.resize(n), trial.supply.resize(n);
+	trial.open = open;
+	for (; trial.iterations <= maxIterations; ++trial.iterations) {
+		const double scale   = scaleOf(trial);
+		const bool   changed = openAndShut(trial, slack * scale);
+		evaluate(trial, h);
+		if (!changed) {
+			const auto error = errors(trial, h);
+			if (*std::max_element(error.begin(), error.end()) <= accuracy * scale) return trial; // NaN goes on
+		}
+		correct(trial, h);
+	}
+	const auto error = errors(trial, h);
+	const int  worst = static_cast<int>(std::max_element(error.begin(), error.end()) - error.begin());
+	std::ostringstream text;
+	text << "the pressures of gas and water were not found in " << maxIterations << " iterations: that of pore " << worst << ", " << trial.pressure[worst]
+	     << " Pa, is off by about " << error[worst] << " Pa; allowed: " << accuracy * scaleOf(trial) << " Pa (a shorter time step helps)";
+	throw FlowError(text.str(), worst);
+}
+
+} // namespace capfrac

@@ -1,0 +1,63 @@
+#pragma once
+
+/// One part of a step of displace(): implicit, for a length that the caller chooses and may take back.
+
+#include "Displacement.hpp"
+
+namespace capfrac {
+
+/// The network at the end of a part.
+struct DisplacementTrial {
+	std::vector<double>       pressure, water, gas, held, volume; ///< of the pores, as in TwoFluidPore
+	std::vector<double>       load; ///< [Pa]
+	std::vector<double>       throatFlow; ///< from a to b [m^3/s]
+	std::vector<double>       supply; ///< into pores of fixed pressure [m^3/s, as amount]
+	double                    films = 0; ///< water that left through films [m^3/s, as amount]
+	std::vector<std::uint8_t> open; ///< throats where gas advances
+	int                       iterations = 0, factored = 0;
+};
+
+class DisplacementPart {
+public:
+	/// `volume`: of the pores at the beginning of the part; `gradient`: of the skeleton, sorted; `dt`: of the whole step.
+	DisplacementPart(const TwoFluidNetwork& network, const std::vector<double>& volume, const Skeleton* skeleton, const std::vector<VolumeEntry>& gradient,
+	        double dt, PressureSolver& solver);
+
+	/// The end after `h` [s], from a guess of the open throats.
+	DisplacementTrial end(double h, const std::vector<std::uint8_t>& open);
+
+	/// The pore of water on the far side of a throat that gas is at; -1 where no gas meets water.
+	int waterBehind(int throat) const { return beyond[throat]; }
+
+private:
+	/// What divides the conductance of a throat [Pa s].
+	double viscosityIn(int throat) const;
+	void   findBeyond();
+	void   findLocked();
+	void   findFlows(DisplacementTrial& trial) const;
+	void   moveAmounts(DisplacementTrial& trial, double h) const;
+	void   supplyReservoirs(DisplacementTrial& trial, double h) const;
+	double residual(const DisplacementTrial& trial, int pore) const;
+	double storage(const DisplacementTrial& trial, int pore) const;
+	void   evaluate(DisplacementTrial& trial, double h) const;
+	bool   openAndShut(DisplacementTrial& trial, double slack) const;
+	/// By how much the pressure of each pore is off [Pa], about: its residual over the diagonal of Newton's matrix.
+	std::vector<double> errors(const DisplacementTrial& trial, double h) const;
+	/// Conductance of a throat now [m^3/(Pa s)], 0 where gas may not pass.
+	double conductance(const DisplacementTrial& trial, std::size_t throat) const;
+	void   correct(DisplacementTrial& trial, double h);
+	double scaleOf(const DisplacementTrial& trial) const;
+
+	const TwoFluidNetwork&          network;
+	const std::vector<double>&      volume;
+	const Skeleton*                 skeleton;
+	const std::vector<VolumeEntry>& gradient;
+	double                          dt;
+	PressureSolver&                 solver;
+	std::vector<int>                beyond;
+	std::vector<double>             share; ///< of gas in each pore at the beginning
+	std::vector<double>             viscosity; ///< in each throat
+	std::vector<std::uint8_t>       locked; ///< pores of water without any boundary
+};
+
+} // namespace capfrac
