@@ -70,7 +70,9 @@ void GasInvasionEngine::advanceFluids()
 {
 	if (levelStart < 0) levelStart = static_cast<int>(scene->iter);
 	if (gasPressure < waterPressure) capfrac::refuseAttribute("gasPressure [Pa]", gasPressure, ">= waterPressure");
-	if (mayInvade() && gasCanAdvance()) avalanche();
+	if (!drained()) displaceWater();
+	else if (mayInvade() && gasCanAdvance())
+		avalanche();
 }
 
 bool GasInvasionEngine::mayInvade() const
@@ -90,7 +92,7 @@ void GasInvasionEngine::avalanche()
 	if (checkInvariants) checkInvariantsNow(network, drainage);
 	if (drainage.steps.empty()) return;
 	for (const auto& step : drainage.steps)
-		record(network, step);
+		record(network.throats[step.throat].edge, step.domain, network.throats[step.throat].entryPressure);
 	for (const auto& step : drainage.steps)
 		fillWithGas(step.domain);
 	findDomains();
@@ -110,19 +112,18 @@ void GasInvasionEngine::fillWithGas(int domain)
 	}
 }
 
-void GasInvasionEngine::record(const capfrac::DrainageNetwork& network, const capfrac::DrainageStep& step)
+void GasInvasionEngine::record(int e, int domain, Real entryPressure)
 {
-	const auto& throat = network.throats[step.throat];
-	const auto& edge   = mesh.edges[throat.edge];
-	const int   first  = domains.first[step.domain];
+	const auto& edge   = mesh.edges[e];
+	const int   first  = domains.first[domain];
 	const auto  ids    = std::make_pair(reader.bodyOf(edge.a), reader.bodyOf(edge.b));
 	const bool  broken = bondBroken(ids.first, ids.second);
-	const Real  growth = gapGrowth(throat.edge);
+	const Real  growth = gapGrowth(e);
 	const Real  r = mesh.isWall(edge.b) ? reader.grains[edge.a].radius : 0.5 * (reader.grains[edge.a].radius + reader.grains[edge.b].radius);
 	Real        volume = 0;
 	int         cells  = 0;
 	capfrac::Vec2 place;
-	for (int c : domains.cellsOf(step.domain)) {
+	for (int c : domains.cellsOf(domain)) {
 		volume += thickness * contents.water[c];
 		place += capfrac::cellCentre(mesh, c, reader.grains, reader.box);
 		++cells;
@@ -132,7 +133,7 @@ void GasInvasionEngine::record(const capfrac::DrainageNetwork& network, const ca
 	eventThroats.push_back(Vector3i(ids.first, ids.second, (broken ? 1 : 0) | (broken || growth > openingThreshold * r ? 2 : 0)));
 	eventCounts.push_back(Vector3i(static_cast<int>(scene->iter), level, cells));
 	Vector6r numbers;
-	numbers << scene->time, gasPressure, throat.entryPressure, gaps[throat.edge], growth, volume;
+	numbers << scene->time, gasPressure, entryPressure, gaps[e], growth, volume;
 	eventNumbers.push_back(numbers);
 	eventPlaces.push_back(Vector2r(place.x / cells, place.y / cells));
 	++nEvents;

@@ -15,7 +15,7 @@ CREATE_LOGGER(GasInvasionEngine);
 void GasInvasionEngine::checkAttributes() const
 {
 	using namespace capfrac;
-	PoreNetworkEngine::checkAttributes();
+	SinglePhaseFlowEngine::checkAttributes();
 	requirePositive("interfacialTension [N/m]", interfacialTension);
 	if (!(contactAngle >= 0 && contactAngle < M_PI / 2)) refuseAttribute("contactAngle [rad]", contactAngle, "0 <= angle < pi/2 (water wets)");
 	if (entryLawFromName(entryLaw) == EntryLaw::mayerStowePrincen && contactAngle != 0)
@@ -30,6 +30,7 @@ void GasInvasionEngine::checkAttributes() const
 	requirePositive("restDisplacement [-]", restDisplacement);
 	wallFromName("inletWall", inletWall);
 	wallsFromName("outletWall", outletWall);
+	checkDisplacement();
 	if (invasionInterval < 0) refuseAttribute("invasionInterval [-]", invasionInterval, ">= 0");
 }
 
@@ -38,7 +39,7 @@ void GasInvasionEngine::guardAttributes()
 	accepted.guard(
 	        std::tie(
 	                interfacialTension, contactAngle, entryLaw, gasPressure, pressureIncrement, maxPressure, unbalancedTolerance, minLevelSteps,
-	                maxLevelSteps, openingThreshold, restDisplacement, inletWall, outletWall, invasionInterval),
+	                maxLevelSteps, openingThreshold, restDisplacement, inletWall, outletWall, invasionInterval, waterFlow, gasViscosity, maxFilling, filmConductance),
 	        [this] { GasInvasionEngine::checkAttributes(); });
 	law = capfrac::entryLawFromName(entryLaw);
 }
@@ -78,6 +79,7 @@ std::vector<int> GasInvasionEngine::inletDomains() const
 void GasInvasionEngine::startFluids()
 {
 	if (gasPressure < waterPressure) capfrac::refuseAttribute("gasPressure [Pa]", gasPressure, ">= waterPressure");
+	if (!drained()) SinglePhaseFlowEngine::startFluids();
 	try {
 		checkInlet();
 		const auto inlet = inletDomains();
@@ -98,6 +100,7 @@ void GasInvasionEngine::startFluids()
 		mesh = {}; // the network is not there until it has an inlet
 		throw;
 	}
+	if (!drained()) startDisplacement();
 	findDomains();
 	startGrains = reader.grains;
 	startBox    = reader.box;

@@ -1,13 +1,16 @@
 #pragma once
 
-#include "PoreNetworkEngine.hpp"
+#include "SinglePhaseFlowEngine.hpp"
 
+#include "../flow/Displacement.hpp"
 #include "../fluids/EntryPressure.hpp"
 #include "../invasion/Drainage.hpp"
 
 namespace yade {
 
-class GasInvasionEngine : public PoreNetworkEngine {
+/// Gas in the pores, on top of the network that follows the grains. Its water is drained, and what SinglePhaseFlowEngine brings lies idle;
+/// or it is solved for, by that engine's network of throats and its view of the grains (GasInvasionDisplacement.cpp).
+class GasInvasionEngine : public SinglePhaseFlowEngine {
 public:
 	virtual ~GasInvasionEngine() = default;
 	void                preSave(GasInvasionEngine&);
@@ -27,6 +30,11 @@ protected:
 	void finishStep() override;
 	void checkAttributes() const override;
 	void guardAttributes();
+	bool drained() const override { return waterFlow == "drained"; }
+	void beforeReport() override;
+	void followRemesh(const capfrac::Triangulation& before) override;
+	Real prescribedPressure(int wall) const override;
+	capfrac::FluidForces forcesOfFluids() const override;
 	Real reportedEntryPressure(int edge) const override;
 
 private:
@@ -37,7 +45,7 @@ private:
 	bool                     gasCanAdvance() const;
 	capfrac::DrainageNetwork drainageNetwork() const;
 	void                     avalanche();
-	void                     record(const capfrac::DrainageNetwork& network, const capfrac::DrainageStep& step);
+	void                     record(int edge, int domain, Real entryPressure);
 	void                     fillWithGas(int domain);
 	bool                     touches(int domain, int wall) const;
 	bool                     mayInvade() const;
@@ -55,14 +63,27 @@ private:
 	Real                     largestDisplacement(bool rattlersToo) const;
 	void                     closeLevel(bool balanced);
 
+	// With waterFlow = 'solved'.
+	void                     checkDisplacement() const;
+	void                     startDisplacement();
+	void                     joinPhases();
+	capfrac::TwoFluidNetwork twoFluidNetwork();
+	void                     addReservoir(capfrac::TwoFluidNetwork& network) const;
+	Real                     bodyPressure(int pore) const;
+	void                     displaceWater();
+	void                     writeBack(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done);
+	void                     recordEntries(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done);
+	capfrac::TwoFluids       twoFluids() const;
+
 	capfrac::EntryLaw                law = capfrac::EntryLaw::inscribedSphere;
 	capfrac::Accepted                accepted;
 	std::vector<capfrac::Disk>       startGrains; ///< the grains when the invasion began
 	capfrac::Box                     startBox;
+	std::vector<int>                 edgeOfThroat; ///< of the last network of two fluids, without those of the reservoir
 
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GasInvasionEngine,PoreNetworkEngine,R"""(Gas under a slowly rising pressure enters a water-filled, deformable sediment: capillary invasion, fracture, or both.
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GasInvasionEngine,SinglePhaseFlowEngine,R"""(Gas under a slowly rising pressure enters a water-filled, deformable sediment: capillary invasion, fracture, or both.
 
 Every step: the network follows the grains (:yref:`PoreNetworkEngine`); gas that hangs on the inlet advances through every throat whose entry pressure, Eq. 15 of
 [Jain2008]_ (corrected) with the gap as it is now, does not exceed $P_c = p_g - p_w$, the lowest first, until none is left (or one pore at a time: :yref:`invasionInterval<GasInvasionEngine.invasionInterval>`); gas pores then load the grains with $p_g$, water
@@ -83,6 +104,14 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((std::vector<Vector2r>,inletPoints,,,"Instead of a stretch of wall: points [m]; the pores that hold them are the inlet."))
 		((std::string,outletWall,"top",Attr::triggerPostLoad,"Wall through which the water leaves, or ``'any'`` for all four; gas that reaches it has broken through [-]."))
 		((bool,trapping,false,,"Whether water that is cut off from the outlet stays (true) or drains by films (false) [-]."))
+		((std::string,waterFlow,"drained",Attr::triggerPostLoad,"``'drained'``: the water keeps :yref:`waterPressure<PoreNetworkEngine.waterPressure>` and gives way at once. ``'solved'``: it is viscous and compressible and has to flow to the outlet, which is held at waterPressure (or what :yref:`wallPressures<SinglePhaseFlowEngine.wallPressures>` says), and so is the gas; both load the grains, and the step foresees how these give way (stable at the time step of the dry grains). Attributes of :yref:`SinglePhaseFlowEngine` then apply [-]."))
+		((Real,gasViscosity,1.1e-5,Attr::triggerPostLoad,"Viscosity of the gas [Pa·s], > 0, with ``waterFlow = 'solved'``; methane."))
+		((Real,maxFilling,0.5,Attr::triggerPostLoad,"Share of a pore that gas may fill in one part of a time step [-], > 0, with ``waterFlow = 'solved'``: a long step is divided."))
+		((Real,filmConductance,0,Attr::triggerPostLoad,"Conductance of the films from a pore of water that is cut off to the outlet [m³/(Pa·s)], >= 0, with ``waterFlow = 'solved'``; 0: it is locked."))
+		((std::vector<Real>,cellState,,(Attr::hidden|Attr::readonly),"Pressures of the cells at the end of the last step [Pa]."))
+		((std::vector<Real>,cellHeld,,(Attr::hidden|Attr::readonly),"Capillary pressures of gas in cells of water [Pa]."))
+		((std::vector<int>,edgeAdvancing,,(Attr::hidden|Attr::readonly),"Whether gas has passed the edge and fills the pore behind it."))
+		((Real,reservoirGas,0,(Attr::hidden|Attr::readonly),"Gas upstream of the inlet [m³ at pressure zero]."))
 		((Real,openingThreshold,0.01,Attr::triggerPostLoad,"A throat counts as opened, not rigid, when its gap has grown by more than this many mean radii since the start, or its bond is broken [-], > 0."))
 		((int,invasionInterval,0,Attr::triggerPostLoad,"Steps between one invaded pore and the next [-], >= 0. 0: the grains stand still during an avalanche, as in a rigid sediment. Otherwise the grains answer to each pore before the gas takes the next one, and a throat that opens at a fracture's tip comes before a rigid one with a higher entry pressure."))
 		((bool,checkInvariants,false,,"Check after each avalanche that no throat opened below its entry pressure, that all gas hangs on the inlet or is trapped, and that every pore is counted once; throws otherwise."))

@@ -8,6 +8,7 @@ namespace yade {
 
 std::vector<double> GasInvasionEngine::cellPressures() const
 {
+	if (!drained()) return SinglePhaseFlowEngine::cellPressures();
 	std::vector<double> pressure(mesh.cells.size());
 	for (std::size_t c = 0; c < pressure.size(); ++c)
 		pressure[c] = contents.phase[c] == capfrac::Phase::gas ? pressureOfGas(static_cast<int>(c)) : waterPressure;
@@ -43,6 +44,7 @@ void GasInvasionEngine::closeLevel(bool balanced)
 
 Real GasInvasionEngine::saturation() const
 {
+	if (!drained()) return gasSaturation; // of the last step
 	const auto voids = currentVoids();
 	Real       gas = 0, all = 0;
 	for (std::size_t c = 0; c < voids.size(); ++c) {

@@ -46,8 +46,8 @@ void SinglePhaseFlowEngine::guardAttributes()
 	                bulkModulus, viscosity, conductanceLaw, conductanceFactor, residualAperture, halvingForce, timeIntegration, wallPressures, wallFluxes,
 	                pointPressures, pointFluxes, fluidDensity, gravity, closedPore, grainBulkModulus),
 	        [this] { SinglePhaseFlowEngine::checkAttributes(); });
-	law    = capfrac::conductanceLawFromName(conductanceLaw);
-	scheme = timeIntegration == "explicit" ? Scheme::explicitEuler : timeIntegration == "implicit" ? Scheme::implicit : Scheme::undrainedStable;
+	conductance = capfrac::conductanceLawFromName(conductanceLaw);
+	scheme      = timeIntegration == "explicit" ? Scheme::explicitEuler : timeIntegration == "implicit" ? Scheme::implicit : Scheme::undrainedStable;
 }
 
 void SinglePhaseFlowEngine::postLoad(SinglePhaseFlowEngine&) { guardAttributes(); }
@@ -65,21 +65,23 @@ void SinglePhaseFlowEngine::startFluids()
 }
 
 /// For reports until the next step finds pressures anew: cells that are new have that of a neighbour that is not.
-void SinglePhaseFlowEngine::followRemesh(const capfrac::Triangulation& before)
+void SinglePhaseFlowEngine::followRemesh(const capfrac::Triangulation& before) { carryOverCells(cellPressure, before, waterPressure); }
+
+void SinglePhaseFlowEngine::carryOverCells(std::vector<Real>& values, const capfrac::Triangulation& before, Real fallback) const
 {
-	if (cellPressure.size() != before.cells.size()) return;
-	std::vector<Real> pressure(mesh.cells.size(), NaN);
+	if (values.size() != before.cells.size()) return;
+	std::vector<Real> kept(mesh.cells.size(), NaN);
 	for (std::size_t n = 0, o = 0; n < mesh.cells.size(); ++n) { // both are sorted by vertex
 		while (o < before.cells.size() && before.cells[o].vertex < mesh.cells[n].vertex)
 			++o;
-		if (o < before.cells.size() && before.cells[o].vertex == mesh.cells[n].vertex) pressure[n] = cellPressure[o++];
+		if (o < before.cells.size() && before.cells[o].vertex == mesh.cells[n].vertex) kept[n] = values[o++];
 	}
-	cellPressure = pressure;
+	values = kept;
 	for (std::size_t n = 0; n < mesh.cells.size(); ++n)
-		for (int k = 0; k < 3 && math::isnan(cellPressure[n]); ++k)
-			if (const int next = mesh.cells[n].neighbour[k]; next >= 0) cellPressure[n] = pressure[next];
-	for (auto& p : cellPressure)
-		if (math::isnan(p)) p = waterPressure;
+		for (int k = 0; k < 3 && math::isnan(values[n]); ++k)
+			if (const int next = mesh.cells[n].neighbour[k]; next >= 0) values[n] = kept[next];
+	for (auto& value : values)
+		if (math::isnan(value)) value = fallback;
 }
 
 // --- the step -------------------------------------------------------------------------------------
@@ -139,7 +141,7 @@ void SinglePhaseFlowEngine::advanceFluids()
 void SinglePhaseFlowEngine::bookInflow(const capfrac::FlowStep& done)
 {
 	for (int w = 0; w < capfrac::nWalls; ++w) {
-		wallInflow[w] = math::isnan(wallPressures[w]) ? wallFluxes[w] : 0;
+		wallInflow[w] = math::isnan(prescribedPressure(w)) ? wallFluxes[w] : 0;
 		for (int pore : poresAlong[w])
 			wallInflow[w] += done.supply[pore];
 	}
@@ -163,7 +165,7 @@ Real SinglePhaseFlowEngine::wallStiffness(int wall) const
 {
 	// The pores at a wall as closed springs, dF/dx = (dV/dx)^2 K_f/V; an incompressible fluid counts as water. A step that
 	// foresees the wall's motion is no spring to it.
-	if (scheme == Scheme::undrainedStable || !prepared() || poreVolume.empty() || gradients.walls.empty() || !math::isnan(wallPressures[wall])) return 0;
+	if (scheme == Scheme::undrainedStable || !prepared() || poreVolume.empty() || gradients.walls.empty() || !math::isnan(prescribedPressure(wall))) return 0;
 	const Real modulus = std::isfinite(bulkModulus) ? bulkModulus : 2.2e9;
 	Real       sum     = 0;
 	std::map<int, Real> response;

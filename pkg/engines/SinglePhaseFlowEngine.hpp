@@ -5,6 +5,8 @@
 #include "../flow/Coupling.hpp"
 #include "../fluids/Conductance.hpp"
 
+#include <optional>
+
 namespace yade {
 
 /// Water that flows through the pores of moving grains, presses on them, and keeps its mass.
@@ -33,8 +35,10 @@ protected:
 	/// Of the very matrix that the step foresaw the volumes with: what the grains gain in work the fluid loses, to round-off.
 	capfrac::FluidForces forcesOfFluids() const override;
 
-private:
-	enum class Scheme { undrainedStable, implicit, explicitEuler };
+	/// Lets values of the cells follow a remeshing: a new cell has that of a neighbour that is not new, or `fallback`.
+	void carryOverCells(std::vector<Real>& values, const capfrac::Triangulation& before, Real fallback) const;
+	/// Pressure held in the pores along a wall [Pa]; NaN: none.
+	virtual Real prescribedPressure(int wall) const { return wallPressures[wall]; }
 
 	void                 guardAttributes();
 	/// Pores, their volumes and centroids, how they answer to the grains, and the fluid's weight, as they are now.
@@ -43,6 +47,8 @@ private:
 	void                 findPoresAlongWalls();
 	capfrac::FlowNetwork flowNetwork() const;
 	void                 addThroats(capfrac::FlowNetwork& network) const;
+	/// The throat at an edge between two pores; nothing where there is none.
+	std::optional<capfrac::FlowThroat> throatAt(int edge) const;
 	void                 addBoundaries(capfrac::FlowNetwork& network) const;
 	void                 fixPressure(capfrac::FlowNetwork& network, int pore, double pressure, const std::string& owner) const;
 	capfrac::Skeleton    skeleton() const;
@@ -56,8 +62,7 @@ private:
 	capfrac::FlowStep    step(capfrac::FlowNetwork& network);
 	void                 bookInflow(const capfrac::FlowStep& done);
 
-	Scheme                    scheme = Scheme::undrainedStable;
-	capfrac::ConductanceLaw   law    = capfrac::ConductanceLaw::fourSpheres;
+	capfrac::ConductanceLaw   conductance = capfrac::ConductanceLaw::fourSpheres;
 	capfrac::PressureSolver   solver;
 	int                       nPores = 0;
 	std::vector<int>          poreOfCell;
@@ -67,7 +72,12 @@ private:
 	std::array<std::vector<int>, capfrac::nWalls> poresAlong; ///< those at a prescribed pressure along each wall
 	capfrac::VolumeGradients  gradients; ///< of the cells
 	capfrac::FluidForces      weightForce; ///< weightOfFluid(); no grains: it has none
-	capfrac::Accepted         accepted;
+
+private:
+	enum class Scheme { undrainedStable, implicit, explicitEuler };
+
+	Scheme            scheme = Scheme::undrainedStable;
+	capfrac::Accepted accepted;
 
 public:
 	// clang-format off

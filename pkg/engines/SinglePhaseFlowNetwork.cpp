@@ -63,7 +63,7 @@ void SinglePhaseFlowEngine::findPoresAlongWalls()
 {
 	for (int w = 0; w < capfrac::nWalls; ++w) {
 		poresAlong[w].clear();
-		if (math::isnan(wallPressures[w])) continue;
+		if (math::isnan(prescribedPressure(w))) continue;
 		for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 			const auto& v = mesh.cells[c].vertex;
 			if (std::find(v.begin(), v.end(), mesh.nGrains + w) != v.end()) poresAlong[w].push_back(poreOfCell[c]);
@@ -87,32 +87,39 @@ capfrac::FlowNetwork SinglePhaseFlowEngine::flowNetwork() const
 	return network;
 }
 
+std::optional<capfrac::FlowThroat> SinglePhaseFlowEngine::throatAt(int e) const
+{
+	const auto& edge = mesh.edges[e];
+	if (edge.left < 0 || edge.right < 0 || poreOfCell[edge.left] == poreOfCell[edge.right]) return {};
+	const int  a = poreOfCell[edge.left], b = poreOfCell[edge.right];
+	const bool wall = mesh.isWall(edge.b);
+	// A wall mirrors: the throat there is half of that between the grain and its image.
+	const Real ra = reader.grains[edge.a].radius, rb = wall ? ra : reader.grains[edge.b].radius, gap = wall ? 2 * gaps[e] : gaps[e];
+	capfrac::ThroatDetails details;
+	details.length = math::max(capfrac::norm(poreCentre[a] - poreCentre[b]), 1e-6 * (ra + rb)); // centres of a nested pair may coincide
+	Real r         = 0.5 * (ra + rb);
+	if (conductance == capfrac::ConductanceLaw::lubrication) r = 2 * ra * rb / (ra + rb);
+	if (conductance == capfrac::ConductanceLaw::parallelPlates) {
+		details.plates      = { residualAperture, halvingForce, 1.0 };
+		const auto contact  = scene->interactions->find(reader.bodyOf(edge.a), reader.bodyOf(edge.b));
+		const auto* phys    = contact && contact->isReal() ? dynamic_cast<const NormPhys*>(contact->phys.get()) : nullptr;
+		details.normalForce = phys ? phys->normalForce.norm() : 0;
+	}
+	const Real c = (wall ? 0.5 : 1.0) * capfrac::conductance(conductance, gap, r, viscosity, thickness, details, conductanceFactor);
+	return capfrac::FlowThroat { a, b, c / details.length };
+}
+
 void SinglePhaseFlowEngine::addThroats(capfrac::FlowNetwork& network) const
 {
 	const capfrac::Vec2 weight { fluidDensity * gravity[0], fluidDensity * gravity[1] };
 	for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-		const auto& edge = mesh.edges[e];
-		if (edge.left < 0 || edge.right < 0 || poreOfCell[edge.left] == poreOfCell[edge.right]) continue;
-		const int  a = poreOfCell[edge.left], b = poreOfCell[edge.right];
-		const bool wall = mesh.isWall(edge.b);
-		// A wall mirrors: the throat there is half of that between the grain and its image.
-		const Real ra = reader.grains[edge.a].radius, rb = wall ? ra : reader.grains[edge.b].radius, gap = wall ? 2 * gaps[e] : gaps[e];
-		capfrac::ThroatDetails details;
-		details.length = math::max(capfrac::norm(poreCentre[a] - poreCentre[b]), 1e-6 * (ra + rb)); // centres of a nested pair may coincide
-		Real r         = 0.5 * (ra + rb);
-		if (law == capfrac::ConductanceLaw::lubrication) r = 2 * ra * rb / (ra + rb);
-		if (law == capfrac::ConductanceLaw::parallelPlates) {
-			details.plates      = { residualAperture, halvingForce, 1.0 };
-			const auto contact  = scene->interactions->find(reader.bodyOf(edge.a), reader.bodyOf(edge.b));
-			const auto* phys    = contact && contact->isReal() ? dynamic_cast<const NormPhys*>(contact->phys.get()) : nullptr;
-			details.normalForce = phys ? phys->normalForce.norm() : 0;
-		}
-		const Real c = (wall ? 0.5 : 1.0) * capfrac::conductance(law, gap, r, viscosity, thickness, details, conductanceFactor);
-		const Real g = c / details.length;
-		network.throats.push_back({ a, b, g });
-		const Real drive = g * capfrac::dot(weight, poreCentre[b] - poreCentre[a]); // flow from a to b under the fluid's weight
-		network.pores[a].source -= drive;
-		network.pores[b].source += drive;
+		const auto throat = throatAt(static_cast<int>(e));
+		if (!throat) continue;
+		network.throats.push_back(*throat);
+		// Flow from a to b under the fluid's weight.
+		const Real drive = throat->conductance * capfrac::dot(weight, poreCentre[throat->b] - poreCentre[throat->a]);
+		network.pores[throat->a].source -= drive;
+		network.pores[throat->b].source += drive;
 	}
 }
 
@@ -132,7 +139,7 @@ void SinglePhaseFlowEngine::addBoundaries(capfrac::FlowNetwork& network) const
 {
 	for (int w = 0; w < capfrac::nWalls; ++w) {
 		for (int pore : poresAlong[w])
-			fixPressure(network, pore, wallPressures[w], std::string("the ") + wallName(w) + " wall");
+			fixPressure(network, pore, prescribedPressure(w), std::string("the ") + wallName(w) + " wall");
 		if (wallFluxes[w] == 0) continue;
 		const auto stretches = wallStretches(mesh, domains, reader, w);
 		Real       length    = 0;

@@ -26,7 +26,6 @@ namespace {
 				volume.push_back(pore.volume);
 			if (skeleton) gradient = sortedGradient(skeleton->gradient);
 			step.load.assign(volume.size(), 0), step.supply.assign(volume.size(), 0);
-			open.assign(network.throats.size(), 0);
 		}
 
 		DisplacementStep run()
@@ -67,7 +66,7 @@ namespace {
 
 		DisplacementTrial attempt(DisplacementPart& part, double h)
 		{
-			auto trial = part.end(h, open);
+			auto trial = part.end(h);
 			step.iterations += trial.iterations, step.factored += trial.factored;
 			return trial;
 		}
@@ -94,7 +93,8 @@ namespace {
 		void accept(const DisplacementPart& part, const DisplacementTrial& trial, double h)
 		{
 			for (std::size_t t = 0; t < network.throats.size(); ++t) {
-				const int pore = part.waterBehind(static_cast<int>(t));
+				const int pore              = part.waterBehind(static_cast<int>(t));
+				network.throats[t].advancing = pore >= 0 && trial.open[t];
 				if (pore < 0 || trial.throatFlow[t] == 0 || network.pores[pore].gas > 0 || known(pore)) continue;
 				step.entries.push_back({ static_cast<int>(t), pore, time });
 			}
@@ -109,7 +109,7 @@ namespace {
 				step.load[i] += h / dt * trial.load[i];
 				step.supply[i] += h / dt * trial.supply[i];
 			}
-			volume = trial.volume, open = trial.open;
+			volume = trial.volume;
 			time += h;
 			++step.parts;
 		}
@@ -142,7 +142,6 @@ namespace {
 		DisplacementOptions       options;
 		std::vector<VolumeEntry>  gradient;
 		std::vector<double>       volume;
-		std::vector<std::uint8_t> open;
 		double                    time = 0;
 		DisplacementStep          step;
 	};

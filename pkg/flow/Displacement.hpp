@@ -4,9 +4,10 @@
 ///
 /// Water flows between pores of water, gas between pores of gas, each with the conductance of the throat over its own
 /// viscosity. From a pore of gas to a neighbour of water the throat is shut until the difference of their pressures
-/// exceeds the entry pressure s; then gas flows in, at G (p_g - p_w - s), and the neighbour's water gives way. When its last
+/// exceeds the entry pressure; then gas flows in, at G (p_g - p_w - s), and the neighbour's water gives way. s is the capillary pressure
+/// of the meniscus in the pore, lower than that in the throat: what it falls by drives the jump. When the last
 /// water has left, the neighbour is a pore of gas. Gas does not recede: a throat where the difference falls
-/// below s is shut again (no imbibition). The viscosity in a throat that gas has just passed is that of what
+/// below s is shut, and opens at the entry pressure again (no imbibition). The viscosity in a throat that gas has just passed is that of what
 /// fills the pore behind it, in proportion.
 ///
 /// A step is backward Euler, in parts that end when a pore is full. Which throats are open belongs to the unknowns: found together

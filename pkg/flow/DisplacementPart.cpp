@@ -44,6 +44,11 @@ void DisplacementPart::findBeyond()
 	}
 }
 
+double DisplacementPart::heldBehind(int throat) const
+{
+	return std::min(network.throats[throat].entryPressure, network.pores[beyond[throat]].bodyPressure);
+}
+
 double DisplacementPart::viscosityIn(int throat) const
 {
 	const auto& fluids = network.fluids;
@@ -73,10 +78,8 @@ void DisplacementPart::findFlows(DisplacementTrial& trial) const
 		if (beyond[t] < 0) trial.throatFlow[t] = g * drop;
 		else if (!trial.open[t])
 			trial.throatFlow[t] = 0;
-		else { // gas never comes back
-			const double sign   = beyond[t] == throat.b ? 1 : -1;
-			trial.throatFlow[t] = sign * g * std::max(0.0, sign * drop - throat.entryPressure);
-		}
+		else // negative only on the way to the solution: gas never comes back
+			trial.throatFlow[t] = g * (drop - (beyond[t] == throat.b ? 1 : -1) * heldBehind(static_cast<int>(t)));
 	}
 }
 
@@ -95,7 +98,7 @@ void DisplacementPart::moveAmounts(DisplacementTrial& trial, double h) const
 			trial.water[i] -= h * flow;
 			trial.films += flow;
 		}
-	std::vector<double> lowest(network.pores.size(), -1); // entry pressure that gas new to a pore has overcome
+	std::vector<double> lowest(network.pores.size(), -1); // capillary pressure of gas that is new to a pore
 	for (std::size_t t = 0; t < network.throats.size(); ++t) {
 		const auto& throat = network.throats[t];
 		if (beyond[t] < 0 && !network.pores[throat.a].isGas) {
@@ -107,7 +110,7 @@ void DisplacementPart::moveAmounts(DisplacementTrial& trial, double h) const
 		const double amount = h * trial.throatFlow[t] * gasRatio(network.fluids, trial.pressure[from]);
 		trial.gas[throat.a] -= amount, trial.gas[throat.b] += amount;
 		if (const int pore = beyond[t]; pore >= 0 && network.pores[pore].gas == 0)
-			lowest[pore] = lowest[pore] < 0 ? throat.entryPressure : std::min(lowest[pore], throat.entryPressure);
+			lowest[pore] = lowest[pore] < 0 ? heldBehind(static_cast<int>(t)) : std::min(lowest[pore], heldBehind(static_cast<int>(t)));
 	}
 	for (std::size_t i = 0; i < lowest.size(); ++i)
 		if (lowest[i] >= 0) trial.held[i] = lowest[i];
@@ -165,19 +168,25 @@ double DisplacementPart::scaleOf(const DisplacementTrial& trial) const
 	return scale;
 }
 
+/// Once the pressures are those of the open throats: shuts what gas would come back through, all of it, else opens the throat that
+/// gas exceeds most. One at a time, for what passes there may keep it out of the others; and never for pressures on the way to the solution, since
+/// a throat that has once been passed stays open at less.
 bool DisplacementPart::openAndShut(DisplacementTrial& trial, double margin) const
 {
-	bool changed = false;
+	bool   changed = false;
+	int    next    = -1;
+	double most    = margin;
 	for (std::size_t t = 0; t < beyond.size(); ++t) {
 		if (beyond[t] < 0) continue;
 		const auto&  throat = network.throats[t];
 		const double drop   = (beyond[t] == throat.b ? 1 : -1) * (trial.pressure[throat.a] - trial.pressure[throat.b]);
-		const bool   open   = drop > throat.entryPressure + (trial.open[t] ? 0 : margin);
-		if (open == static_cast<bool>(trial.open[t])) continue;
-		trial.open[t] = open;
-		changed       = true;
+		if (trial.open[t] && drop < heldBehind(static_cast<int>(t))) trial.open[t] = 0, changed = true;
+		else if (const double excess = drop - (throat.advancing ? heldBehind(static_cast<int>(t)) : throat.entryPressure); !trial.open[t] && excess > most)
+			next = static_cast<int>(t), most = excess;
 	}
-	return changed;
+	if (changed || next < 0) return changed;
+	trial.open[next] = 1;
+	return true;
 }
 
 double DisplacementPart::conductance(const DisplacementTrial& trial, std::size_t t) const
@@ -187,16 +196,20 @@ double DisplacementPart::conductance(const DisplacementTrial& trial, std::size_t
 
 std::vector<double> DisplacementPart::errors(const DisplacementTrial& trial, double h) const
 {
-	std::vector<double> diagonal(volume.size()), error(volume.size());
-	for (std::size_t i = 0; i < diagonal.size(); ++i)
-		diagonal[i] = storage(trial, static_cast<int>(i));
+	// What cannot be known better: sums of volumes, and flows from differences of rounded pressures.
+	constexpr double    roundOff = 16 * std::numeric_limits<double>::epsilon();
+	std::vector<double> noise(volume.size()), error(volume.size());
+	for (std::size_t i = 0; i < noise.size(); ++i)
+		noise[i] = roundOff * volume[i];
 	for (std::size_t t = 0; t < network.throats.size(); ++t) {
-		const double g = h * conductance(trial, t);
-		diagonal[network.throats[t].a] += g, diagonal[network.throats[t].b] += g;
+		const auto&  throat = network.throats[t];
+		const double flow   = roundOff * h * conductance(trial, t) * (std::abs(trial.pressure[throat.a]) + std::abs(trial.pressure[throat.b]));
+		noise[throat.a] += flow, noise[throat.b] += flow;
 	}
-	constexpr double roundOff = 8 * std::numeric_limits<double>::epsilon(); // in the sum of volumes
-	for (std::size_t i = 0; i < error.size(); ++i)
-		error[i] = std::max(0.0, std::abs(residual(trial, static_cast<int>(i))) - roundOff * volume[i]) / diagonal[i];
+	for (std::size_t i = 0; i < error.size(); ++i) {
+		const double left = std::abs(residual(trial, static_cast<int>(i)));
+		if (!(left <= noise[i])) error[i] = std::isfinite(left) ? left / storage(trial, static_cast<int>(i)) : std::numeric_limits<double>::infinity();
+	}
 	return error;
 }
 
@@ -232,28 +245,32 @@ void DisplacementPart::correct(DisplacementTrial& trial, double h)
 	}
 }
 
-DisplacementTrial DisplacementPart::end(double h, const std::vector<std::uint8_t>& open)
+DisplacementTrial DisplacementPart::end(double h)
 {
 	DisplacementTrial trial;
 	const std::size_t n = network.pores.size();
 	for (const auto& pore : network.pores)
 		trial.pressure.push_back(pore.fixedPressure.value_or(pore.pressure));
 	trial.water.resize(n), trial.gas.resize(n), trial.held.resize(n), trial.load.resize(n), trial.supply.resize(n);
-	trial.open = open;
-	for (; trial.iterations <= maxIterations; ++trial.iterations) {
-		const double scale   = scaleOf(trial);
-		const bool   changed = openAndShut(trial, slack * scale);
+	for (const auto& throat : network.throats)
+		trial.open.push_back(throat.advancing);
+	// Iterations count from the last throat that opened or shut: these come one by one, and there may be many.
+	const int most = maxIterations + 10 * static_cast<int>(beyond.size()); // for the case that they come for ever
+	for (int iteration = 0; iteration <= maxIterations && trial.iterations <= most; ++trial.iterations) {
+		const double scale = scaleOf(trial);
 		evaluate(trial, h);
-		if (!changed) {
-			const auto error = errors(trial, h);
-			if (*std::max_element(error.begin(), error.end()) <= accuracy * scale) return trial; // NaN goes on
-		}
+		const auto error = errors(trial, h);
+		if (*std::max_element(error.begin(), error.end()) > accuracy * scale) ++iteration;
+		else if (openAndShut(trial, slack * scale))
+			iteration = 0;
+		else
+			return trial;
 		correct(trial, h);
 	}
 	const auto error = errors(trial, h);
 	const int  worst = static_cast<int>(std::max_element(error.begin(), error.end()) - error.begin());
 	std::ostringstream text;
-	text << "the pressures of gas and water were not found in " << maxIterations << " iterations: that of pore " << worst << ", " << trial.pressure[worst]
+	text << "the pressures of gas and water were not found in " << trial.iterations << " iterations: that of pore " << worst << ", " << trial.pressure[worst]
 	     << " Pa, is off by about " << error[worst] << " Pa; allowed: " << accuracy * scaleOf(trial) << " Pa (a shorter time step helps)";
 	throw FlowError(text.str(), worst);
 }

@@ -23,8 +23,8 @@ public:
 	DisplacementPart(const TwoFluidNetwork& network, const std::vector<double>& volume, const Skeleton* skeleton, const std::vector<VolumeEntry>& gradient,
 	        double dt, PressureSolver& solver);
 
-	/// The end after `h` [s], from a guess of the open throats.
-	DisplacementTrial end(double h, const std::vector<std::uint8_t>& open);
+	/// The end after `h` [s].
+	DisplacementTrial end(double h);
 
 	/// The pore of water on the far side of a throat that gas is at; -1 where no gas meets water.
 	int waterBehind(int throat) const { return beyond[throat]; }
@@ -32,6 +32,8 @@ public:
 private:
 	/// What divides the conductance of a throat [Pa s].
 	double viscosityIn(int throat) const;
+	/// Capillary pressure of gas that is through [Pa].
+	double heldBehind(int throat) const;
 	void   findBeyond();
 	void   findLocked();
 	void   findFlows(DisplacementTrial& trial) const;
@@ -41,7 +43,7 @@ private:
 	double storage(const DisplacementTrial& trial, int pore) const;
 	void   evaluate(DisplacementTrial& trial, double h) const;
 	bool   openAndShut(DisplacementTrial& trial, double slack) const;
-	/// By how much the pressure of each pore is off [Pa], about: its residual over the diagonal of Newton's matrix.
+	/// By how much the pressure of each pore would have to change for what it holds to fill it [Pa], were it closed.
 	std::vector<double> errors(const DisplacementTrial& trial, double h) const;
 	/// Conductance of a throat now [m^3/(Pa s)], 0 where gas may not pass.
 	double conductance(const DisplacementTrial& trial, std::size_t throat) const;

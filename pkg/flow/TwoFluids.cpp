@@ -29,6 +29,7 @@ namespace {
 		if (!notNegative(pore.water)) refuse(named("water [m^3]"), pore.water, ">= 0", i);
 		if (!notNegative(pore.gas)) refuse(named("gas [m^3]"), pore.gas, ">= 0", i);
 		if (!notNegative(pore.held)) refuse(named("held pressure [Pa]"), pore.held, ">= 0", i);
+		if (!notNegative(pore.bodyPressure)) refuse(named("capillary pressure in the body [Pa]"), pore.bodyPressure, ">= 0", i);
 		if (!std::isfinite(pore.pressure)) refuse(named("pressure [Pa]"), pore.pressure, "a finite number", i);
 		if (!std::isfinite(pore.source)) refuse(named("source [m^3/s]"), pore.source, "a finite number", i);
 		if (pore.fixedPressure && !std::isfinite(*pore.fixedPressure)) refuse(named("prescribed pressure [Pa]"), *pore.fixedPressure, "a finite number", i);

@@ -4,7 +4,7 @@
 ///
 /// Amounts of both fluids are the primary unknowns, each counted as the volume [m^3] that it fills at gauge pressure
 /// zero. A pore has one pressure p: that of the gas where gas flows through it, of the water elsewhere. A
-/// water pore may hold gas, too, whose pressure is higher by the entry pressure s that this gas has overcome: gas that
+/// water pore may hold gas, too, whose pressure is higher by the capillary pressure s of its meniscus in the pore: gas that
 /// fills the pore, or a bubble that grains closing or opening have cut off. What a pore holds fills it,
 ///
 ///     V = m_w/(1 + p/K_f) + m_g rho(p_0)/rho(p_0 + p + s)
@@ -35,6 +35,7 @@ struct TwoFluidPore {
 	bool                  isGas    = false; ///< gas flows through it; water that it holds stays
 	double                held     = 0; ///< s [Pa]; 0 where isGas
 	double                pressure = 0; ///< p [Pa] at the end of the last step
+	double                bodyPressure = 0; ///< capillary pressure of a meniscus in the body of the pore [Pa] >= 0; what gas that enters holds, but at most the entry pressure
 	double                source   = 0; ///< of the fluid that flows through it [m^3/s, as amount]
 	std::optional<double> fixedPressure; ///< [Pa]: a reservoir of that fluid; gone once gas has filled a water pore
 };
@@ -42,7 +43,8 @@ struct TwoFluidPore {
 struct TwoFluidThroat {
 	int    a = -1, b = -1; ///< pores
 	double conductance   = 0; ///< G times viscosity [m^3] >= 0
-	double entryPressure = 0; ///< what gas on one side has to exceed the water on the other by [Pa] >= 0
+	double entryPressure = 0; ///< what gas on one side has to exceed the water on the other by to pass [Pa] >= 0
+	bool   advancing     = false; ///< gas has passed it and fills the pore behind it
 };
 
 struct TwoFluidNetwork {

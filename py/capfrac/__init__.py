@@ -47,7 +47,7 @@ def load_engines():
             "or YADE with `capfrac yade`, which know where everything is"
         ) from problem
     names = ["DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D",
-             "PoreNetworkEngine", "GasInvasionEngine", "WallServoEngine"]
+             "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "WallServoEngine"]
     main = importlib.import_module("__main__")
     for name in names:
         # A YADE session has YADE's classes among its own names: ours belong there too.

@@ -1,0 +1,239 @@
+/// Gas and water of GasInvasionEngine where both are solved for: the pores as a problem of displacement, and back.
+
+#include "Attributes.hpp"
+#include "GasInvasionEngine.hpp"
+#include "Walls.hpp"
+
+#include <algorithm>
+
+namespace yade {
+
+namespace {
+
+	/// Conductance from the reservoir to a pore of the inlet over that of the widest throat [-]: no obstacle, and well conditioned.
+	constexpr Real inletConductance = 100;
+	/// Least volume of the reservoir, in mean pores [-]: so that its pressure has a meaning.
+	constexpr Real leastReservoir = 1e-3;
+	/// Share of a pore that gas gains within a level's least duration and still counts as at rest [-].
+	constexpr Real restingGain = 0.01;
+
+} // namespace
+
+void GasInvasionEngine::checkDisplacement() const
+{
+	using namespace capfrac;
+	if (waterFlow != "drained" && waterFlow != "solved") refuseAttribute("waterFlow", "'" + waterFlow + "'", "'drained', 'solved'");
+	requirePositive("gasViscosity [Pa·s]", gasViscosity);
+	requirePositive("maxFilling [-]", maxFilling);
+	requireNotNegative("filmConductance [m³/(Pa·s)]", filmConductance);
+	if (drained()) return;
+	const std::string with = " with waterFlow = 'solved'";
+	if (!std::isfinite(bulkModulus)) refuseAttribute("bulkModulus [Pa]", bulkModulus, "finite" + with + " (that of water is 2.2e9)");
+	if (std::isfinite(grainBulkModulus)) refuseAttribute("grainBulkModulus [Pa]", grainBulkModulus, "infinity" + with);
+	if (timeIntegration != "undrainedStable") refuseAttribute("timeIntegration", "'" + timeIntegration + "'", "'undrainedStable'" + with);
+	if (gravity.squaredNorm() > 0 && fluidDensity > 0) refuseAttribute("gravity [m/s²]", gravity.transpose(), "(0, 0)" + with);
+	checkTwoFluids(twoFluids());
+}
+
+Real GasInvasionEngine::prescribedPressure(int wall) const
+{
+	const Real given = wallPressures[wall];
+	if (drained() || !math::isnan(given) || wallFluxes[wall] != 0) return given;
+	const auto outlets = wallsFromName("outletWall", outletWall);
+	return std::find(outlets.begin(), outlets.end(), wall) != outlets.end() ? waterPressure : NaN;
+}
+
+capfrac::FluidForces GasInvasionEngine::forcesOfFluids() const
+{
+	return drained() ? PoreNetworkEngine::forcesOfFluids() : SinglePhaseFlowEngine::forcesOfFluids();
+}
+
+void GasInvasionEngine::beforeReport()
+{
+	if (!drained()) SinglePhaseFlowEngine::beforeReport();
+}
+
+void GasInvasionEngine::followRemesh(const capfrac::Triangulation& before)
+{
+	if (drained()) return;
+	SinglePhaseFlowEngine::followRemesh(before);
+	carryOverCells(cellState, before, waterPressure);
+	carryOverCells(cellHeld, before, 0);
+	const std::vector<std::uint8_t> flags(edgeAdvancing.begin(), edgeAdvancing.end());
+	const auto                      carried = capfrac::carryOverEdges(before, flags, mesh, 0);
+	edgeAdvancing.assign(carried.begin(), carried.end());
+}
+
+capfrac::TwoFluids GasInvasionEngine::twoFluids() const
+{
+	capfrac::TwoFluids fluids;
+	fluids.waterBulkModulus = bulkModulus, fluids.waterViscosity = viscosity, fluids.gasViscosity = gasViscosity;
+	return fluids;
+}
+
+/// The inlet was filled by volume: its gas has the pressure of the reservoir.
+void GasInvasionEngine::startDisplacement()
+{
+	const auto fluids = twoFluids();
+	const Real ratio  = capfrac::gasRatio(fluids, gasPressure);
+	waterIn = 0, gasIn = 0, initialWater = thickness * contents.totalWater();
+	const auto voidsNow = currentVoids();
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+		if (contents.phase[c] != capfrac::Phase::gas) continue;
+		contents.gas[c] = voidsNow[c] * ratio;
+		gasIn += thickness * contents.gas[c];
+	}
+	cellState.assign(mesh.cells.size(), waterPressure);
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+		if (contents.phase[c] == capfrac::Phase::gas) cellState[c] = gasPressure;
+	cellPressure = cellState;
+	cellHeld.assign(mesh.cells.size(), 0);
+	edgeAdvancing.assign(mesh.edges.size(), 0);
+}
+
+// --- to the kernel and back -----------------------------------------------------------------------
+
+/// A pore that was closed and joined to its neighbour takes over that neighbour's phase.
+void GasInvasionEngine::joinPhases()
+{
+	std::vector<Real> asGas(nPores, 0);
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+		asGas[poreOfCell[c]] += contents.phase[c] == capfrac::Phase::gas ? thickness * voids[c] : 0;
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+		contents.phase[c] = asGas[poreOfCell[c]] > 0.5 * poreVolume[poreOfCell[c]] ? capfrac::Phase::gas : capfrac::Phase::water;
+}
+
+Real GasInvasionEngine::bodyPressure(int) const { return 0; }
+
+capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
+{
+	capfrac::TwoFluidNetwork network;
+	network.fluids          = twoFluids();
+	network.filmConductance = filmConductance, network.filmPressure = waterPressure;
+	network.pores.resize(nPores);
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+		auto& pore = network.pores[poreOfCell[c]];
+		pore.water += thickness * contents.water[c], pore.gas += thickness * contents.gas[c];
+		pore.held += thickness * contents.gas[c] * cellHeld[c];
+		pore.pressure += thickness * voids[c] * cellState[c];
+		pore.isGas = contents.phase[c] == capfrac::Phase::gas;
+	}
+	capfrac::FlowNetwork boundaries;
+	boundaries.pores.resize(nPores);
+	addBoundaries(boundaries);
+	for (int p = 0; p < nPores; ++p) {
+		auto& pore    = network.pores[p];
+		pore.volume   = poreVolume[p];
+		pore.pressure /= poreVolume[p];
+		pore.bodyPressure = bodyPressure(p);
+		pore.held     = pore.isGas || !(pore.gas > 0) ? 0 : pore.held / pore.gas;
+		if (pore.isGas) continue;
+		pore.fixedPressure = boundaries.pores[p].fixedPressure, pore.source = boundaries.pores[p].source;
+	}
+	edgeOfThroat.clear();
+	for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+		const auto flow = throatAt(static_cast<int>(e));
+		if (!flow) continue;
+		capfrac::TwoFluidThroat throat { flow->a, flow->b, flow->conductance * viscosity, throatEntryPressure(static_cast<int>(e)) };
+		throat.advancing = edgeAdvancing[e] != 0;
+		network.throats.push_back(throat);
+		edgeOfThroat.push_back(static_cast<int>(e));
+	}
+	addReservoir(network);
+	return network;
+}
+
+void GasInvasionEngine::addReservoir(capfrac::TwoFluidNetwork& network) const
+{
+	Real widest = 0, volume = 0;
+	for (const auto& throat : network.throats)
+		widest = math::max(widest, throat.conductance);
+	for (Real v : poreVolume)
+		volume += v / nPores;
+	capfrac::TwoFluidPore reservoir;
+	reservoir.isGas         = true;
+	reservoir.volume        = leastReservoir * volume;
+	reservoir.pressure      = gasPressure;
+	reservoir.gas           = reservoir.volume * capfrac::gasRatio(network.fluids, gasPressure);
+	reservoir.fixedPressure = gasPressure;
+	network.pores.push_back(reservoir);
+	std::vector<char> joined(nPores, 0);
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+		const int p = poreOfCell[c];
+		if (!contents.source[c] || !network.pores[p].isGas || std::exchange(joined[p], 1)) continue;
+		network.throats.push_back({ nPores, p, inletConductance * widest });
+	}
+}
+
+void GasInvasionEngine::displaceWater()
+{
+	describePores();
+	joinPhases();
+	auto                       network = twoFluidNetwork();
+	const auto                 before  = network.pores.back().gas;
+	capfrac::DisplacementStep  done;
+	try {
+		if (grainsMove()) {
+			const auto grains = skeleton();
+			done              = capfrac::displace(network, &grains, scene->dt, solver, { maxFilling });
+		} else
+			done = capfrac::displace(network, nullptr, scene->dt, solver, { maxFilling });
+	} catch (const capfrac::FlowError& e) {
+		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what() + placeOf(e.pore));
+	} catch (const std::exception& e) {
+		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what());
+	}
+	waterIn += done.water.in - done.water.out;
+	gasIn += done.gas.in - done.gas.out - (network.pores.back().gas - before);
+	massDefect += done.water.defect() + done.gas.defect();
+	nFactorizations += done.factored;
+	solverIterations = done.iterations;
+	recordEntries(network, done);
+	writeBack(network, done);
+}
+
+void GasInvasionEngine::recordEntries(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done)
+{
+	for (const auto& entry : done.entries) {
+		const int  e    = edgeOfThroat[entry.throat];
+		const auto edge = mesh.edges[e];
+		const int  cell = poreOfCell[edge.left] == entry.pore ? edge.left : edge.right;
+		record(e, domains.ofCell[cell], network.throats[entry.throat].entryPressure);
+		lastEventIter = static_cast<int>(scene->iter);
+	}
+}
+
+void GasInvasionEngine::writeBack(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done)
+{
+	std::vector<Real> gasBefore(nPores, 0);
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+		gasBefore[poreOfCell[c]] += thickness * contents.gas[c];
+	Real volume = 0, gas = 0;
+	for (int p = 0; p < nPores; ++p) {
+		const auto& pore = network.pores[p];
+		const Real  now  = capfrac::gasVolume(network.fluids, pore.gas, pore.pressure + pore.held);
+		volume += pore.volume, gas += now;
+		const Real gain = now - capfrac::gasVolume(network.fluids, gasBefore[p], pore.pressure + pore.held);
+		if (!pore.isGas && gain * minLevelSteps > restingGain * pore.volume) lastEventIter = static_cast<int>(scene->iter); // gas is on its way
+	}
+	gasSaturation = gas / volume;
+	cellPressure.resize(mesh.cells.size());
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+		const int   p    = poreOfCell[c];
+		const auto& pore = network.pores[p];
+		// A pore has one pressure: its cells share what it holds by their voids.
+		const Real share  = voids[c] / poreVolume[p];
+		contents.water[c] = share * pore.water, contents.gas[c] = share * pore.gas;
+		contents.phase[c] = pore.isGas ? capfrac::Phase::gas : capfrac::Phase::water;
+		cellPressure[c]   = done.load[p];
+		cellState[c] = pore.pressure, cellHeld[c] = pore.held;
+	}
+	std::fill(edgeAdvancing.begin(), edgeAdvancing.end(), 0);
+	for (std::size_t t = 0; t < edgeOfThroat.size(); ++t)
+		edgeAdvancing[edgeOfThroat[t]] = network.throats[t].advancing;
+	if (done.filled.empty()) return;
+	findDomains();
+	noteBreakthrough();
+}
+
+} // namespace yade
