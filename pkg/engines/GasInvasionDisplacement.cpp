@@ -103,7 +103,18 @@ void GasInvasionEngine::joinPhases()
 		contents.phase[c] = asGas[poreOfCell[c]] > 0.5 * poreVolume[poreOfCell[c]] ? capfrac::Phase::gas : capfrac::Phase::water;
 }
 
-Real GasInvasionEngine::bodyPressure(int) const { return 0; }
+/// Where the menisci of the pores are the least curved: in the widest of their cells.
+std::vector<Real> GasInvasionEngine::bodyPressures() const
+{
+	std::vector<Real> radius(nPores, 0), pressure(nPores, std::numeric_limits<Real>::max());
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+		auto& widest = radius[poreOfCell[c]];
+		widest       = math::max(widest, capfrac::poreBody(mesh, static_cast<int>(c), reader.grains, reader.box).radius);
+	}
+	for (int p = 0; p < nPores; ++p)
+		if (radius[p] > 0) pressure[p] = capfrac::refillPressure(radius[p], interfacialTension, contactAngle);
+	return pressure;
+}
 
 capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
 {
@@ -118,6 +129,7 @@ capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
 		pore.pressure += thickness * voids[c] * cellState[c];
 		pore.isGas = contents.phase[c] == capfrac::Phase::gas;
 	}
+	const auto           bodies = bodyPressures();
 	capfrac::FlowNetwork boundaries;
 	boundaries.pores.resize(nPores);
 	addBoundaries(boundaries);
@@ -125,7 +137,7 @@ capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
 		auto& pore    = network.pores[p];
 		pore.volume   = poreVolume[p];
 		pore.pressure /= poreVolume[p];
-		pore.bodyPressure = bodyPressure(p);
+		pore.bodyPressure = bodies[p];
 		pore.held     = pore.isGas || !(pore.gas > 0) ? 0 : pore.held / pore.gas;
 		if (pore.isGas) continue;
 		pore.fixedPressure = boundaries.pores[p].fixedPressure, pore.source = boundaries.pores[p].source;

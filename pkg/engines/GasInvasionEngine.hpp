@@ -4,6 +4,7 @@
 
 #include "../flow/Displacement.hpp"
 #include "../fluids/EntryPressure.hpp"
+#include "../fluids/Imbibition.hpp"
 #include "../invasion/Drainage.hpp"
 
 namespace yade {
@@ -69,7 +70,7 @@ private:
 	void                     joinPhases();
 	capfrac::TwoFluidNetwork twoFluidNetwork();
 	void                     addReservoir(capfrac::TwoFluidNetwork& network) const;
-	Real                     bodyPressure(int pore) const;
+	std::vector<Real>        bodyPressures() const;
 	void                     displaceWater();
 	void                     writeBack(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done);
 	void                     recordEntries(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done);

@@ -52,14 +52,16 @@ namespace {
 			for (double gain; (gain = largestGain(trial)) > options.maxFilling;)
 				trial = attempt(part, h *= std::max(0.1, 0.9 * options.maxFilling / gain));
 			// The water that is left in the emptiest pore falls from `before` at 0 to `after` at h; find where it is nearly gone.
-			double low = 0, before = leastWater({}), high = h, after = leastWater(&trial);
-			while (after < 0 || before <= 0) {
-				const double root = low + (high - low) * std::clamp((before - 0.5 * full) / (before - after), 0.05, 0.95);
-				trial             = attempt(part, h = root);
-				const double now  = leastWater(&trial);
-				if (now >= 0 && now <= full) break;
-				(now > 0 ? low : high) = root, (now > 0 ? before : after) = now;
-				if (high - low < 1e-15 * dt) throw FlowError("a pore fills faster than the time step can be divided; allowed: a shorter time step");
+			double low = 0, before = leastWater(nullptr), high = h, after = leastWater(&trial);
+			while (after < 0) {
+				h = low + (high - low) * std::clamp((before - 0.5 * full) / (before - after), 0.05, 0.95);
+				// It may jump there, because a throat opens: then the part ends before the jump.
+				const bool jumps = low > 0 && high - low < 1e-6 * high;
+				trial            = attempt(part, jumps ? h = low : h);
+				const double now = leastWater(&trial);
+				if (jumps || (now >= 0 && now <= full)) break;
+				(now > 0 ? low : high) = h, (now > 0 ? before : after) = now;
+				if (high < 1e-12 * dt) throw FlowError("a pore fills faster than the time step can be divided; allowed: a shorter time step");
 			}
 			return trial;
 		}

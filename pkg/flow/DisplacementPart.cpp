@@ -16,6 +16,8 @@ namespace {
 	/// Between opening and shutting of a throat, likewise: keeps it from doing both for ever.
 	constexpr double slack          = 1e-9;
 	constexpr int    maxIterations  = 60;
+	/// Lowest absolute pressure of gas that is tried, over that at gauge pressure zero.
+	constexpr double leastPressure = 1e-3;
 
 } // namespace
 
@@ -237,12 +239,22 @@ void DisplacementPart::correct(DisplacementTrial& trial, double h)
 	FlowStep step;
 	assembly.solve(solver, step);
 	trial.factored += step.factored;
-	for (std::size_t i = 0; i < volume.size(); ++i) {
-		const double p = trial.pressure[i] + step.pressure[i];
-		// A Newton step from afar may leave the range of the gas law: never more than nine tenths of the way to vacuum.
-		const double vacuum = -(network.fluids.datum + trial.held[i]);
-		trial.pressure[i]   = trial.gas[i] > 0 ? std::max(p, vacuum + 0.1 * (trial.pressure[i] - vacuum)) : p;
-	}
+	for (std::size_t i = 0; i < volume.size(); ++i)
+		trial.pressure[i] += step.pressure[i];
+	keepOffVacuum(trial);
+}
+
+/// Water may be under tension, gas not: a Newton step from afar, or gas that enters water under tension, would leave the range of the gas law.
+void DisplacementPart::keepOffVacuum(DisplacementTrial& trial) const
+{
+	const auto atLeast = [&](int i) {
+		const double p = (leastPressure - 1) * network.fluids.datum - trial.held[i];
+		if (!network.pores[i].fixedPressure) trial.pressure[i] = std::max(trial.pressure[i], p);
+	};
+	for (std::size_t i = 0; i < volume.size(); ++i)
+		if (trial.gas[i] > 0 || network.pores[i].gas > 0) atLeast(static_cast<int>(i));
+	for (std::size_t t = 0; t < beyond.size(); ++t)
+		if (trial.open[t]) atLeast(beyond[t]);
 }
 
 DisplacementTrial DisplacementPart::end(double h)
@@ -254,6 +266,11 @@ DisplacementTrial DisplacementPart::end(double h)
 	trial.water.resize(n), trial.gas.resize(n), trial.held.resize(n), trial.load.resize(n), trial.supply.resize(n);
 	for (const auto& throat : network.throats)
 		trial.open.push_back(throat.advancing);
+	for (std::size_t t = 0; t < beyond.size(); ++t)
+		if (beyond[t] < 0) trial.open[t] = 0; // gas is on both sides by now
+	for (std::size_t i = 0; i < n; ++i)
+		trial.held[i] = network.pores[i].held;
+	keepOffVacuum(trial);
 	// Iterations count from the last throat that opened or shut: these come one by one, and there may be many.
 	const int most = maxIterations + 10 * static_cast<int>(beyond.size()); // for the case that they come for ever
 	for (int iteration = 0; iteration <= maxIterations && trial.iterations <= most; ++trial.iterations) {

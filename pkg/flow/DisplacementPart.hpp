@@ -48,6 +48,7 @@ private:
 	/// Conductance of a throat now [m^3/(Pa s)], 0 where gas may not pass.
 	double conductance(const DisplacementTrial& trial, std::size_t throat) const;
 	void   correct(DisplacementTrial& trial, double h);
+	void   keepOffVacuum(DisplacementTrial& trial) const;
 	double scaleOf(const DisplacementTrial& trial) const;
 
 	const TwoFluidNetwork&          network;
