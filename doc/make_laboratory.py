@@ -14,7 +14,9 @@ from capfrac.lab import figures
 HERE = Path(__file__).parent
 PICTURES = {"settle": ("figure7", "figure8"), "timestep": ("figure9",), "hydrate-ridge": ("figure10",), "compact": ("compaction",), "biaxial-bonded": ("biaxial",),
             "contacts": ("contacts",), "diffusion": ("figure11", "figure12"), "closed-forms": ("closed-forms",), "undrained": ("figure13",), "terzaghi": ("terzaghi",), "mandel": ("mandel",),
-            "stability": ("stability",)}
+            "stability": ("stability",), "percolation": ("percolation",)}
+#: Tables that the manual offers as files.
+DATA = {"percolation": ("percolation",)}
 UNITS = {"youngModulus": ("E [MPa]", 1e-6), "poissonRatio": ("ν", 1), "frictionAngle": ("φ [°]", 1), "cohesion": ("c [kPa]", 1e-3)}
 
 
@@ -61,6 +63,9 @@ def main(runs):
     for test, names in PICTURES.items():
         for name in names:
             shutil.copy(runs / test / "pictures" / f"{name}.png", folder / f"{name}.png")
+    for test, names in DATA.items():
+        for name in names:
+            shutil.copy(runs / test / "tables" / f"{name}.csv", HERE / "data" / f"{name}.csv")
     figures.drawSensitivity(results(runs, "sensitivity"), folder / "sensitivity.png")
     path = HERE / "laboratory.md"
     text = path.read_text(encoding="utf-8")

@@ -8,14 +8,19 @@
 
 namespace yade {
 
-Real GasInvasionEngine::throatEntryPressure(int e) const
+std::pair<Real, Real> GasInvasionEngine::throatShape(int e) const
 {
 	const auto& edge = mesh.edges[e];
 	const auto& a    = reader.grains[edge.a];
 	// A wall mirrors: the throat between a grain and a wall is half of that between the grain and its image.
 	const bool wall = mesh.isWall(edge.b);
-	const Real gap  = wall ? 2 * gaps[e] : gaps[e];
-	const Real r    = wall ? a.radius : 0.5 * (a.radius + reader.grains[edge.b].radius);
+	return { wall ? 2 * gaps[e] : gaps[e], wall ? a.radius : 0.5 * (a.radius + reader.grains[edge.b].radius) };
+}
+
+Real GasInvasionEngine::throatEntryPressure(int e) const
+{
+	const auto& edge   = mesh.edges[e];
+	const auto [gap, r] = throatShape(e);
 	try {
 		return capfrac::entryPressure(law, gap, r, interfacialTension, contactAngle);
 	} catch (const capfrac::EntryLawError& error) {
@@ -31,8 +36,9 @@ bool GasInvasionEngine::gasCanAdvance() const
 {
 	for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
 		const auto& edge = mesh.edges[e];
-		if (edge.left < 0 || edge.right < 0 || contents.phase[edge.left] == contents.phase[edge.right]) continue;
-		if (throatEntryPressure(static_cast<int>(e)) <= capillaryPressure()) return true;
+		if (edge.left < 0 || edge.right < 0) continue;
+		if (contents.phase[edge.left] == contents.phase[edge.right] && !snappedOff(static_cast<int>(e))) continue;
+		if (entryPressureAtDatum(static_cast<int>(e)) <= capillaryPressure()) return true;
 	}
 	return false;
 }
@@ -60,7 +66,8 @@ capfrac::DrainageNetwork GasInvasionEngine::drainageNetwork() const
 		if (left == right) continue;
 		const auto middle = 0.5 * (capfrac::cellCentre(mesh, edge.left, reader.grains, reader.box)
 		                           + capfrac::cellCentre(mesh, edge.right, reader.grains, reader.box));
-		network.throats.push_back({ static_cast<int>(e), left, right, throatEntryPressure(static_cast<int>(e)), middle });
+		const int number = static_cast<int>(e);
+		network.throats.push_back({ number, left, right, entryPressureAtDatum(number), middle, snappedOff(number) });
 	}
 	network.injected = capfrac::connectedGas(network, seed);
 	return network;
@@ -69,10 +76,21 @@ capfrac::DrainageNetwork GasInvasionEngine::drainageNetwork() const
 void GasInvasionEngine::advanceFluids()
 {
 	if (levelStart < 0) levelStart = static_cast<int>(scene->iter);
+	if (!drained()) {
+		displaceWater();
+		return;
+	}
+	settleGas(control == GasControl::rate ? gasRate * scene->dt : 0);
 	if (gasPressure < waterPressure) capfrac::refuseAttribute("gasPressure [Pa]", gasPressure, ">= waterPressure");
-	if (!drained()) displaceWater();
-	else if (mayInvade() && gasCanAdvance())
+	// Where the pressure follows from the mass, each pore that is filled lowers it, and may end the avalanche.
+	for (int before = -1; nEvents != before && mayInvade() && gasCanAdvance();) {
+		before = nEvents;
 		avalanche();
+		settleGas(0);
+		if (!pressureFollows()) break;
+	}
+	if (imbibition) recede();
+	if (trapping && filmConductance > 0) drainByFilms();
 }
 
 bool GasInvasionEngine::mayInvade() const
@@ -84,7 +102,7 @@ void GasInvasionEngine::avalanche()
 {
 	syncContents();
 	const auto network  = drainageNetwork();
-	const auto drainage = capfrac::drain(network, capillaryPressure(), trapping, invasionInterval > 0 ? 1 : std::numeric_limits<int>::max());
+	const auto drainage = capfrac::drain(network, capillaryPressure(), trapping, invasionInterval > 0 || pressureFollows() ? 1 : std::numeric_limits<int>::max());
 	nTrappedWater       = static_cast<int>(drainage.trapped.size());
 	nDetachedGas        = 0;
 	for (int d = 0; d < domains.count; ++d)
@@ -92,9 +110,11 @@ void GasInvasionEngine::avalanche()
 	if (checkInvariants) checkInvariantsNow(network, drainage);
 	if (drainage.steps.empty()) return;
 	for (const auto& step : drainage.steps)
-		record(network.throats[step.throat].edge, step.domain, network.throats[step.throat].entryPressure);
+		if (step.domain >= 0) record(network.throats[step.throat].edge, step.domain, throatEntryPressure(network.throats[step.throat].edge));
+		else
+			reopen(network.throats[step.throat].edge);
 	for (const auto& step : drainage.steps)
-		fillWithGas(step.domain);
+		if (step.domain >= 0) fillWithGas(step.domain);
 	findDomains();
 	lastEventIter = static_cast<int>(scene->iter);
 	gasSaturation = saturation();
@@ -168,13 +188,17 @@ void GasInvasionEngine::checkInvariantsNow(const capfrac::DrainageNetwork& netwo
 	for (const auto& step : drainage.steps) {
 		const auto& throat = network.throats[step.throat];
 		const int   from   = throat.left == step.domain ? throat.right : throat.left;
+		if (step.domain < 0) {
+			after.throats[step.throat].snapped = false;
+			continue;
+		}
 		if (throat.entryPressure > capillaryPressure()) fail("a throat opened below its entry pressure");
 		if (!after.injected[from]) after.injected = capfrac::connectedGas(after, after.injected); // gas that was met
 		if (!after.injected[from]) fail("gas advanced from a pore that does not hang on the inlet");
 		if (after.gas[step.domain]) fail("a pore was invaded twice");
 		after.gas[step.domain] = after.injected[step.domain] = 1;
 	}
-	if (!trapping && invasionInterval == 0 && capfrac::nextEntryPressure(after) <= capillaryPressure()) fail("the avalanche stopped before its end");
+	if (!trapping && invasionInterval == 0 && !pressureFollows() && capfrac::nextEntryPressure(after) <= capillaryPressure()) fail("the avalanche stopped before its end");
 	const Real books = math::abs(thickness * contents.totalGas() - gasIn) + math::abs(thickness * contents.totalWater() - initialWater - waterIn);
 	if (books > 1e-10 * initialVoid) fail("gas and water do not add up to what entered and left");
 }

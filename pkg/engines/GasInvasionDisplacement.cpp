@@ -19,20 +19,26 @@ namespace {
 
 } // namespace
 
-void GasInvasionEngine::checkDisplacement() const
+void GasInvasionEngine::checkWaterFlow() const
 {
 	using namespace capfrac;
 	if (waterFlow != "drained" && waterFlow != "solved") refuseAttribute("waterFlow", "'" + waterFlow + "'", "'drained', 'solved'");
 	requirePositive("gasViscosity [Pa·s]", gasViscosity);
 	requirePositive("maxFilling [-]", maxFilling);
-	requireNotNegative("filmConductance [m³/(Pa·s)]", filmConductance);
-	if (drained()) return;
+}
+
+/// What only the whole of the attributes shows; at assignment, one would have to come before the other.
+void GasInvasionEngine::checkDisplacementTogether() const
+{
+	using capfrac::refuseAttribute;
 	const std::string with = " with waterFlow = 'solved'";
+	if (gasState.law == capfrac::GasLaw::incompressible) refuseAttribute("gasLaw", "'" + gasLaw + "'", "'ideal', 'tabulated'" + with + ": the pressure of the gas follows from its mass");
 	if (!std::isfinite(bulkModulus)) refuseAttribute("bulkModulus [Pa]", bulkModulus, "finite" + with + " (that of water is 2.2e9)");
 	if (std::isfinite(grainBulkModulus)) refuseAttribute("grainBulkModulus [Pa]", grainBulkModulus, "infinity" + with);
 	if (timeIntegration != "undrainedStable") refuseAttribute("timeIntegration", "'" + timeIntegration + "'", "'undrainedStable'" + with);
-	if (gravity.squaredNorm() > 0 && fluidDensity > 0) refuseAttribute("gravity [m/s²]", gravity.transpose(), "(0, 0)" + with);
-	checkTwoFluids(twoFluids());
+	if (heavy()) refuseAttribute("gravity [m/s²]", gravity.transpose(), "(0, 0), or fluids without weight," + with);
+	if (imbibition) refuseAttribute("imbibition", imbibition, "false" + with + ": gas does not recede");
+	checkSupplyTogether();
 }
 
 Real GasInvasionEngine::prescribedPressure(int wall) const
@@ -43,11 +49,6 @@ Real GasInvasionEngine::prescribedPressure(int wall) const
 	return std::find(outlets.begin(), outlets.end(), wall) != outlets.end() ? waterPressure : NaN;
 }
 
-capfrac::FluidForces GasInvasionEngine::forcesOfFluids() const
-{
-	return drained() ? PoreNetworkEngine::forcesOfFluids() : SinglePhaseFlowEngine::forcesOfFluids();
-}
-
 void GasInvasionEngine::beforeReport()
 {
 	if (!drained()) SinglePhaseFlowEngine::beforeReport();
@@ -55,6 +56,8 @@ void GasInvasionEngine::beforeReport()
 
 void GasInvasionEngine::followRemesh(const capfrac::Triangulation& before)
 {
+	cutOffPressures.clear();
+	if (!snapped.empty()) snapped = capfrac::carryOverEdges(before, snapped, mesh, 0);
 	if (drained()) return;
 	SinglePhaseFlowEngine::followRemesh(before);
 	carryOverCells(cellState, before, waterPressure);
@@ -68,12 +71,14 @@ capfrac::TwoFluids GasInvasionEngine::twoFluids() const
 {
 	capfrac::TwoFluids fluids;
 	fluids.waterBulkModulus = bulkModulus, fluids.waterViscosity = viscosity, fluids.gasViscosity = gasViscosity;
+	fluids.gas = gasState, fluids.datum = pressureDatum;
 	return fluids;
 }
 
 /// The inlet was filled by volume: its gas has the pressure of the reservoir.
 void GasInvasionEngine::startDisplacement()
 {
+	checkDisplacementTogether();
 	const auto fluids = twoFluids();
 	const Real ratio  = capfrac::gasRatio(fluids, gasPressure);
 	waterIn = 0, gasIn = 0, initialWater = thickness * contents.totalWater();
@@ -163,11 +168,13 @@ void GasInvasionEngine::addReservoir(capfrac::TwoFluidNetwork& network) const
 	for (Real v : poreVolume)
 		volume += v / nPores;
 	capfrac::TwoFluidPore reservoir;
-	reservoir.isGas         = true;
-	reservoir.volume        = leastReservoir * volume;
-	reservoir.pressure      = gasPressure;
-	reservoir.gas           = reservoir.volume * capfrac::gasRatio(network.fluids, gasPressure);
-	reservoir.fixedPressure = gasPressure;
+	reservoir.isGas    = true;
+	reservoir.volume   = math::max(reservoirVolume, leastReservoir * volume);
+	reservoir.pressure = gasPressure;
+	reservoir.gas      = massStarted ? reservoirMass / densityAt(0) : reservoir.volume * capfrac::gasRatio(network.fluids, gasPressure);
+	if (control == GasControl::pressure) reservoir.fixedPressure = gasPressure;
+	else if (control == GasControl::rate)
+		reservoir.source = gasRate / densityAt(0);
 	network.pores.push_back(reservoir);
 	std::vector<char> joined(nPores, 0);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
@@ -179,6 +186,7 @@ void GasInvasionEngine::addReservoir(capfrac::TwoFluidNetwork& network) const
 
 void GasInvasionEngine::displaceWater()
 {
+	checkDisplacementTogether();
 	describePores();
 	joinPhases();
 	auto                       network = twoFluidNetwork();
@@ -197,11 +205,23 @@ void GasInvasionEngine::displaceWater()
 	}
 	waterIn += done.water.in - done.water.out;
 	gasIn += done.gas.in - done.gas.out - (network.pores.back().gas - before);
+	bookMass(before, network.pores.back().gas, done.gas);
+	gasPressure = network.pores.back().pressure;
 	massDefect += done.water.defect() + done.gas.defect();
 	nFactorizations += done.factored;
 	solverIterations = done.iterations;
 	recordEntries(network, done);
 	writeBack(network, done);
+}
+
+/// The books by mass of GasInvasionSupply.cpp.
+void GasInvasionEngine::bookMass(Real before, Real after, const capfrac::FlowLedger& gas)
+{
+	const Real density = densityAt(0);
+	if (!massStarted) initialGasMass = injectedGasMass = density * (thickness * contents.totalGas() + before);
+	massStarted   = true;
+	reservoirMass = density * after, reservoirFilled = reservoirVolume;
+	injectedGasMass += density * (gas.in - gas.out);
 }
 
 void GasInvasionEngine::recordEntries(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done)
@@ -236,6 +256,7 @@ void GasInvasionEngine::writeBack(const capfrac::TwoFluidNetwork& network, const
 		// A pore has one pressure: its cells share what it holds by their voids.
 		const Real share  = voids[c] / poreVolume[p];
 		contents.water[c] = share * pore.water, contents.gas[c] = share * pore.gas;
+		contents.gasMass[c] = densityAt(0) * contents.gas[c];
 		contents.phase[c] = pore.isGas ? capfrac::Phase::gas : capfrac::Phase::water;
 		cellPressure[c]   = done.load[p];
 		cellState[c] = pore.pressure, cellHeld[c] = pore.held;

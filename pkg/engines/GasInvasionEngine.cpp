@@ -30,16 +30,20 @@ void GasInvasionEngine::checkAttributes() const
 	requirePositive("restDisplacement [-]", restDisplacement);
 	wallFromName("inletWall", inletWall);
 	wallsFromName("outletWall", outletWall);
-	checkDisplacement();
+	checkWaterFlow();
 	if (invasionInterval < 0) refuseAttribute("invasionInterval [-]", invasionInterval, ">= 0");
+	checkSupply();
+	checkDisplacement();
 }
 
 void GasInvasionEngine::guardAttributes()
 {
+	guardSupply(); // first: what it refuses must not be left over by the next
+	acceptedDisplacement.guard(std::tie(contactAngle, trapping, snapOff, filmConductance, gasDensity, waterFlow, gasViscosity, maxFilling), [this] { checkWaterFlow(), checkDisplacement(); });
 	accepted.guard(
 	        std::tie(
 	                interfacialTension, contactAngle, entryLaw, gasPressure, pressureIncrement, maxPressure, unbalancedTolerance, minLevelSteps,
-	                maxLevelSteps, openingThreshold, restDisplacement, inletWall, outletWall, invasionInterval, waterFlow, gasViscosity, maxFilling, filmConductance),
+	                maxLevelSteps, openingThreshold, restDisplacement, inletWall, outletWall, invasionInterval),
 	        [this] { GasInvasionEngine::checkAttributes(); });
 	law = capfrac::entryLawFromName(entryLaw);
 }
@@ -81,11 +85,13 @@ void GasInvasionEngine::startFluids()
 	if (gasPressure < waterPressure) capfrac::refuseAttribute("gasPressure [Pa]", gasPressure, ">= waterPressure");
 	if (!drained()) SinglePhaseFlowEngine::startFluids();
 	try {
+		checkSupplyTogether();
 		checkInlet();
 		const auto inlet = inletDomains();
 		if (inlet.empty())
 			throw std::invalid_argument(
 			        "no inlet: no pore of the " + inletWall + " wall has its middle between inletFrom and inletTo; widen the inlet");
+		checkOutlet(inlet);
 		inletPores = static_cast<int>(inlet.size());
 		inletWidth = 0;
 		if (inletPoints.empty())
@@ -114,6 +120,8 @@ void GasInvasionEngine::startFluids()
 	gasSaturation = saturation();
 	levelStart    = -1;
 	noteBreakthrough(); // an inlet may reach the outlet from the start
+	settleGas(0);
+	warnOfSupply();
 }
 
 } // namespace yade

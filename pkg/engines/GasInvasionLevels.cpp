@@ -6,19 +6,11 @@
 
 namespace yade {
 
-std::vector<double> GasInvasionEngine::cellPressures() const
-{
-	if (!drained()) return SinglePhaseFlowEngine::cellPressures();
-	std::vector<double> pressure(mesh.cells.size());
-	for (std::size_t c = 0; c < pressure.size(); ++c)
-		pressure[c] = contents.phase[c] == capfrac::Phase::gas ? pressureOfGas(static_cast<int>(c)) : waterPressure;
-	return pressure;
-}
-
 void GasInvasionEngine::finishStep()
 {
+	if (historyInterval > 0 && scene->iter % historyInterval == 0) recordHistory();
 	constexpr int checkPeriod = 10; // the check costs about as much as the rest of the engine
-	if (rampDone || scene->iter % checkPeriod != 0) return;
+	if (rampDone || scene->iter % checkPeriod != 0 || !levelDue()) return;
 	const int steps = static_cast<int>(scene->iter) - std::max(levelStart, lastEventIter);
 	if (steps < std::max(minLevelSteps, invasionInterval)) return;
 	scene->forces.sync();
@@ -37,9 +29,40 @@ void GasInvasionEngine::closeLevel(bool balanced)
 	levelCounts.push_back(Vector3i(static_cast<int>(scene->iter), countBroken(), balanced ? 1 : 0));
 	++level;
 	levelStart = static_cast<int>(scene->iter);
-	if (pressureIncrement <= 0 || gasPressure >= maxPressure) rampDone = true;
+	if (historyInterval == 0) recordHistory();
+	nextPressure();
+}
+
+bool GasInvasionEngine::levelDue() const
+{
+	if (control != GasControl::rate) return true;
+	// The pressure moves by itself: a level is what is at rest after it moved by an increment.
+	return pressureIncrement > 0 && (levelNumbers.empty() || math::abs(gasPressure - levelNumbers.back()[0]) >= pressureIncrement);
+}
+
+void GasInvasionEngine::nextPressure()
+{
+	if (control == GasControl::rate) return;
+	if (control == GasControl::reservoir) rampDone = true; // at rest, and nothing more to come
+	else if (!pressureProgram.empty())
+		followProgram();
+	else if (pressureIncrement <= 0 || gasPressure >= maxPressure)
+		rampDone = true;
 	else
 		gasPressure = math::min(gasPressure + pressureIncrement, maxPressure);
+}
+
+void GasInvasionEngine::followProgram()
+{
+	const int nPoints = static_cast<int>(pressureProgram.size());
+	while (programPosition < nPoints && gasPressure == pressureProgram[programPosition])
+		++programPosition;
+	if (programPosition == nPoints) {
+		rampDone = true;
+		return;
+	}
+	const Real target = pressureProgram[programPosition], way = target - gasPressure;
+	gasPressure = math::abs(way) <= pressureIncrement ? target : gasPressure + std::copysign(pressureIncrement, way);
 }
 
 Real GasInvasionEngine::saturation() const
@@ -49,7 +72,7 @@ Real GasInvasionEngine::saturation() const
 	Real       gas = 0, all = 0;
 	for (std::size_t c = 0; c < voids.size(); ++c) {
 		all += voids[c];
-		gas += contents.phase[c] == capfrac::Phase::gas ? voids[c] - contents.water[c] : contents.gas[c];
+		gas += contents.phase[c] == capfrac::Phase::gas && !contents.held[c] ? voids[c] - contents.water[c] : contents.gas[c];
 	}
 	return gas / all;
 }

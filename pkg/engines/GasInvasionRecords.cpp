@@ -116,6 +116,7 @@ Real GasInvasionEngine::largestDisplacement(bool rattlersToo) const
 void GasInvasionEngine::preSave(GasInvasionEngine&)
 {
 	savedStart.clear();
+	savedSnapped.assign(snapped.begin(), snapped.end());
 	if (!prepared()) return;
 	for (const auto& g : startGrains)
 		savedStart.insert(savedStart.end(), { g.centre.x, g.centre.y, g.radius });
@@ -126,7 +127,7 @@ void GasInvasionEngine::postLoad(GasInvasionEngine&)
 {
 	guardAttributes();
 	restore();
-	if (gasPressure < maxPressure) rampDone = false; // a ramp whose end was moved up goes on
+	if (!pressureFollows() && pressureProgram.empty() && gasPressure < maxPressure) rampDone = false; // a ramp whose end was moved up goes on
 	if (savedStart.empty() || !startGrains.empty()) return;
 	startGrains.clear();
 	std::size_t k = 0;
@@ -134,6 +135,8 @@ void GasInvasionEngine::postLoad(GasInvasionEngine&)
 		startGrains.push_back({ { savedStart[k], savedStart[k + 1] }, savedStart[k + 2] });
 	startBox = { savedStart[k], savedStart[k + 1], savedStart[k + 2], savedStart[k + 3] };
 	savedStart.clear();
+	snapped.assign(savedSnapped.begin(), savedSnapped.end());
+	savedSnapped.clear();
 }
 
 py::dict GasInvasionEngine::pyEvents()

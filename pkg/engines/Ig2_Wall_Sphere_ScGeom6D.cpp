@@ -1,5 +1,7 @@
 #include "Ig2_Wall_Sphere_ScGeom6D.hpp"
 
+#include <pkg/dem/ScGeom.hpp>
+
 namespace yade {
 
 YADE_PLUGIN((Ig2_Wall_Sphere_ScGeom6D));

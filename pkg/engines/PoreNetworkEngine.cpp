@@ -183,6 +183,7 @@ void PoreNetworkEngine::remesh()
 		++nRebuilds;
 	}
 	syncContents();
+	beforeRemesh();
 	const auto voids = capfrac::voidAreas(after, reader.grains, reader.box);
 	contents  = capfrac::carryOver(mesh, contents, after, voids);
 	openEdges = capfrac::carryOverEdges(mesh, openEdges, after, capfrac::freshEdge);

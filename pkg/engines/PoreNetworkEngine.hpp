@@ -28,6 +28,11 @@ public:
 	/// Stiffness that the fluid adds to a wall [N/m]; a servo has to know it.
 	virtual Real wallStiffness(int) const { return 0; }
 
+	/// The network as the last step left it, for engines that look at the fluids without moving them.
+	const capfrac::Triangulation& network() const { return mesh; }
+	const capfrac::Contents&      fluids() const { return contents; }
+	const SceneReader&            bodies() const { return reader; }
+
 	boost::python::dict pyCells();
 	boost::python::dict pyThroats();
 	boost::python::dict pyForces();
@@ -44,6 +49,8 @@ protected:
 	virtual void beforeReport() {}
 	/// Called last in the step, when the forces of the fluids are on the grains.
 	virtual void finishStep() {}
+	/// Called before the triangulation changes, when the contents have followed the voids.
+	virtual void beforeRemesh() {}
 	/// Called when the triangulation has changed, with the one before; contents and flags have been carried over.
 	virtual void followRemesh(const capfrac::Triangulation&) {}
 	/// Called when the network has been built for the first time.
@@ -139,7 +146,10 @@ or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressure
 		((std::vector<int>,savedPhase,,(Attr::hidden|Attr::readonly),"Phases of the cells, for saving."))
 		((std::vector<int>,savedSource,,(Attr::hidden|Attr::readonly),"Inlet flags of the cells, for saving."))
 		((std::vector<Real>,savedGas,,(Attr::hidden|Attr::readonly),"Gas in the cells [m²], for saving."))
+		((std::vector<Real>,savedGasMass,,(Attr::hidden|Attr::readonly),"Mass of the gas in the cells [kg/m], for saving."))
 		((std::vector<Real>,savedWater,,(Attr::hidden|Attr::readonly),"Water in the cells [m²], for saving."))
+		((std::vector<int>,savedHeld,,(Attr::hidden|Attr::readonly),"Cells of gas that is cut off, for saving."))
+		((std::vector<Real>,savedHeldPressure,,(Attr::hidden|Attr::readonly),"Pressures of the gas that is cut off [Pa], for saving."))
 		((std::vector<int>,savedOpen,,(Attr::hidden|Attr::readonly),"Flags of the edges, for saving."))
 		((std::vector<Real>,savedChecked,,(Attr::hidden|Attr::readonly),"Positions at the last check of the triangulation [m], for saving."))
 		((std::vector<Real>,savedPressures,,(Attr::hidden|Attr::readonly),"Fixed pressures of the cells [Pa], for saving."))
@@ -147,7 +157,7 @@ or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressure
 		guardAttributes();
 		,
 		.def("prepare",&PoreNetworkEngine::pyPrepare,"Build the network of the scene as it is, without a step; done by the first step otherwise. Every problem of the scene is reported here, and the scene is not changed. :raises RuntimeError: naming the body and what is wrong with it")
-		.def("cells",&PoreNetworkEngine::pyCells,"The cells as a dict of lists: ``vertices`` (body ids, three each), ``polygon`` (corners [m]), ``phase`` (0 water, 1 gas), ``pressure`` [Pa], ``void`` [m³], ``gas`` [m³], ``water`` [m³], ``domain`` [-], ``inlet`` (bool). The sum of the voids is exact; a single one may be negative where a grain of a torn sample reaches through its cell into the next.")
+		.def("cells",&PoreNetworkEngine::pyCells,"The cells as a dict of lists: ``vertices`` (body ids, three each), ``polygon`` (corners [m]), ``phase`` (0 water, 1 gas), ``pressure`` [Pa], ``void`` [m³], ``gas`` [m³], ``water`` [m³], ``domain`` [-], ``inlet``, ``cutOff`` (bool: gas without a way to the inlet, which keeps its amount; with :yref:`imbibition<GasInvasionEngine.imbibition>`). The sum of the voids is exact; a single one may be negative where a grain of a torn sample reaches through its cell into the next.")
 		.def("throats",&PoreNetworkEngine::pyThroats,"The edges of the network as a dict of lists: ``ids`` (two bodies), ``gap`` [m], ``open`` (joins the cells on its sides), ``cells`` (left and right, -1 outside), ``entryPressure`` [Pa] (NaN where the engine has none).")
 		.def("fluidForces",&PoreNetworkEngine::pyForces,"The forces of the fluids now, as a dict: body id -> (fx, fy) [N].")
 		.def("volumes",&PoreNetworkEngine::pyVolumes,"The ledger as a dict [m³]: ``void``, ``gas``, ``water``, ``gasIn``, ``waterIn``, ``initialVoid``, ``initialWater``, and ``error``, the relative difference between what is there and what came in.")

@@ -28,27 +28,28 @@ py::dict PoreNetworkEngine::pyCells()
 {
 	pyPrepare();
 	const auto voids = currentVoids(), pressures = cellPressures();
-	py::list   vertices, polygons, phase, pressure, voidVolume, gas, water, domain, inlet;
+	py::list   vertices, polygons, phase, pressure, voidVolume, gas, water, domain, inlet, cutOff;
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const auto& v = mesh.cells[c].vertex;
 		py::list    polygon;
 		for (capfrac::Vec2 corner : capfrac::cellPolygon(mesh, static_cast<int>(c), reader.grains, reader.box))
 			polygon.append(asTuple(corner));
 		// What the cell holds now: its own phase follows the void, the other stays (see capfrac::followVoids).
-		const bool isGas = contents.phase[c] == capfrac::Phase::gas;
+		const bool isGas = contents.phase[c] == capfrac::Phase::gas, fills = isGas && !contents.held[c];
 		vertices.append(py::make_tuple(reader.bodyOf(v[0]), reader.bodyOf(v[1]), reader.bodyOf(v[2])));
 		polygons.append(polygon);
 		phase.append(isGas ? 1 : 0);
 		pressure.append(pressures[c]);
 		voidVolume.append(thickness * voids[c]);
-		gas.append(thickness * (isGas && drained() ? voids[c] - contents.water[c] : contents.gas[c]));
-		water.append(thickness * (isGas || !drained() ? contents.water[c] : voids[c] - contents.gas[c]));
+		gas.append(thickness * (fills && drained() ? voids[c] - contents.water[c] : contents.gas[c]));
+		water.append(thickness * (fills || !drained() ? contents.water[c] : voids[c] - contents.gas[c]));
 		domain.append(domains.ofCell[c]);
 		inlet.append(contents.source[c] != 0);
+		cutOff.append(contents.held[c] != 0);
 	}
 	py::dict d;
 	d["vertices"] = vertices, d["polygon"] = polygons, d["phase"] = phase, d["pressure"] = pressure;
-	d["void"] = voidVolume, d["gas"] = gas, d["water"] = water, d["domain"] = domain, d["inlet"] = inlet;
+	d["void"] = voidVolume, d["gas"] = gas, d["water"] = water, d["domain"] = domain, d["inlet"] = inlet, d["cutOff"] = cutOff;
 	return d;
 }
 

@@ -17,8 +17,11 @@ void PoreNetworkEngine::preSave(PoreNetworkEngine&)
 	for (auto phase : contents.phase)
 		savedPhase.push_back(static_cast<int>(phase));
 	savedSource.assign(contents.source.begin(), contents.source.end());
+	savedHeld.assign(contents.held.begin(), contents.held.end());
+	savedHeldPressure = contents.heldPressure;
 	savedGas       = contents.gas;
 	savedWater     = contents.water;
+	savedGasMass   = contents.gasMass;
 	savedPressures = fixedPressures;
 	savedOpen.assign(openEdges.begin(), openEdges.end());
 	for (const auto& g : checkedGrains)
@@ -43,8 +46,11 @@ void PoreNetworkEngine::restore()
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
 		contents.phase[c] = static_cast<capfrac::Phase>(savedPhase[c]);
 	contents.source.assign(savedSource.begin(), savedSource.end());
+	contents.held.assign(savedHeld.begin(), savedHeld.end());
+	contents.heldPressure = savedHeldPressure;
 	contents.gas   = savedGas;
 	contents.water = savedWater;
+	contents.gasMass = savedGasMass;
 	fixedPressures = savedPressures;
 	openEdges.assign(savedOpen.begin(), savedOpen.end());
 	checkedGrains.resize(n);

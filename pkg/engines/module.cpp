@@ -14,7 +14,7 @@ BOOST_PYTHON_MODULE(_engines)
 	py::scope  inWrapper(wrapper);
 	// Bases first. Omega::loadPlugins would do it for all classes, but wraps YADE's own a second time.
 	for (const char* name :
-	     { "DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D", "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "WallServoEngine" }) {
+	     { "DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D", "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine" }) {
 		auto instance = YADE_PTR_DYN_CAST<yade::Serializable>(yade::ClassFactory::instance().createShared(name));
 		instance->pyRegisterClass(wrapper);
 	}

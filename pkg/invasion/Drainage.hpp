@@ -20,6 +20,7 @@ struct Throat {
 	int    right         = -1; ///< domain on its right
 	double entryPressure = 0;  ///< [Pa]
 	Vec2   position;           ///< [m]; decides between equal entry pressures, so that no numbering does
+	bool   snapped = false;    ///< water has snapped it off: gas on both sides does not hang together through it until it enters anew
 };
 
 /// The network as drainage sees it, one entry per domain.
@@ -33,7 +34,7 @@ struct DrainageNetwork {
 /// One domain entered through one throat.
 struct DrainageStep {
 	int throat = -1; ///< index into DrainageNetwork::throats
-	int domain = -1; ///< the domain entered
+	int domain = -1; ///< the domain entered; -1 where a throat that was snapped off opened again between two domains of gas
 };
 
 struct Drainage {
@@ -41,7 +42,7 @@ struct Drainage {
 	std::vector<int>          trapped; ///< domains of water that lost (or never had) the outlet; only with trapping
 };
 
-/// Domains of gas from which the inlet can be reached through gas. `seed` marks the domains at the inlet.
+/// Domains of gas from which the inlet can be reached through gas and throats that are not snapped off. `seed` marks the domains at the inlet.
 std::vector<std::uint8_t> connectedGas(const DrainageNetwork& network, const std::vector<std::uint8_t>& seed);
 
 /// Domains of water from which an outlet can be reached through water (any throat conducts water).
@@ -51,8 +52,14 @@ std::vector<std::uint8_t> connectedWater(const DrainageNetwork& network);
 ///
 /// Gas that did not hang on the inlet and is met on the way advances from then on. With `trapping` it waits
 /// for the next call, and water that is cut off from every outlet stays: neither the domains that were cut
-/// off before nor those cut off on the way are entered.
-Drainage drain(const DrainageNetwork& network, double capillaryPressure, bool trapping, int maxSteps = std::numeric_limits<int>::max());
+/// off before nor those cut off on the way are entered. A throat that is snapped off between gas and gas is entered like one before water; what is behind it is met then.
+/// With `untilOutlet` the avalanche ends with the first domain entered that is an outlet (breakthrough); the steps up to there are those
+/// of the whole avalanche.
+///
+/// O(n log n) in the number of throats that the gas meets; with trapping in that of all throats.
+Drainage drain(
+        const DrainageNetwork& network, double capillaryPressure, bool trapping, int maxSteps = std::numeric_limits<int>::max(),
+        bool untilOutlet = false);
 
 /// The lowest entry pressure that the injected gas meets [Pa]; infinity where it meets none.
 double nextEntryPressure(const DrainageNetwork& network);

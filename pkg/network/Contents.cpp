@@ -16,9 +16,11 @@ namespace {
 
 	/// What one part of the changed region holds.
 	struct Part {
-		double gas = 0, water = 0, newVoid = 0;
+		double gas = 0, water = 0, gasMass = 0, newVoid = 0;
 		int    nNew   = 0;
 		bool   source = false;
+		double heldGas = 0, heldPressure = 0; ///< gas in held cells, and the sum of it times its pressure
+		bool   freeGas = false;
 	};
 
 	std::vector<int> matchCells(const Triangulation& before, const Triangulation& after)
@@ -66,11 +68,16 @@ void Contents::resize(std::size_t n)
 	gas.assign(n, 0);
 	water.assign(n, 0);
 	source.assign(n, 0);
+	gasMass.assign(n, 0);
+	held.assign(n, 0);
+	heldPressure.assign(n, 0);
 }
 
 double Contents::totalGas() const { return std::accumulate(gas.begin(), gas.end(), 0.0); }
 
 double Contents::totalWater() const { return std::accumulate(water.begin(), water.end(), 0.0); }
+
+double Contents::totalGasMass() const { return std::accumulate(gasMass.begin(), gasMass.end(), 0.0); }
 
 Contents waterFilled(const std::vector<double>& voidArea)
 {
@@ -84,7 +91,7 @@ std::array<double, 2> followVoids(Contents& contents, const std::vector<double>&
 {
 	std::array<double, 2> entered {};
 	for (std::size_t c = 0; c < voidArea.size(); ++c) {
-		const bool   isGas  = contents.phase[c] == Phase::gas;
+		const bool   isGas  = contents.phase[c] == Phase::gas && !contents.held[c];
 		const double change = voidArea[c] - (contents.gas[c] + contents.water[c]);
 		(isGas ? contents.gas[c] : contents.water[c]) += change;
 		entered[isGas ? 0 : 1] += change;
@@ -110,6 +117,9 @@ Contents carryOver(const Triangulation& before, const Contents& contents, const 
 		carried.gas[n]    = contents.gas[o];
 		carried.water[n]  = contents.water[o];
 		carried.source[n] = contents.source[o];
+		carried.gasMass[n] = contents.gasMass[o];
+		carried.held[n]         = contents.held[o];
+		carried.heldPressure[n] = contents.heldPressure[o];
 	}
 	for (std::size_t o = 0; o < kept.size(); ++o)
 		if (!kept[o]) lost.push_back(static_cast<int>(o));
@@ -127,7 +137,13 @@ Contents carryOver(const Triangulation& before, const Contents& contents, const 
 		Part& part = sums[parts.find(m)];
 		part.gas += contents.gas[lost[m]];
 		part.water += contents.water[lost[m]];
+		part.gasMass += contents.gasMass[lost[m]];
 		part.source |= contents.source[lost[m]] && contents.phase[lost[m]] == Phase::gas;
+		part.freeGas |= contents.phase[lost[m]] == Phase::gas && !contents.held[lost[m]];
+		if (contents.held[lost[m]]) {
+			part.heldGas += contents.gas[lost[m]];
+			part.heldPressure += contents.gas[lost[m]] * contents.heldPressure[lost[m]];
+		}
 	}
 	for (std::size_t m = 0; m < made.size(); ++m) {
 		Part& part = sums[parts.find(nOld + static_cast<int>(m))];
@@ -140,8 +156,13 @@ Contents carryOver(const Triangulation& before, const Contents& contents, const 
 		const double share = part.newVoid > 0 ? std::max(0.0, newVoid[c]) / part.newVoid : 1.0 / part.nNew;
 		carried.gas[c]     = share * part.gas;
 		carried.water[c]   = share * part.water;
+		carried.gasMass[c] = share * part.gasMass;
 		carried.phase[c]   = part.gas > 0 && part.gas >= part.water ? Phase::gas : Phase::water;
 		carried.source[c]  = part.source && carried.phase[c] == Phase::gas;
+		if (carried.phase[c] == Phase::gas && part.heldGas > 0 && !part.freeGas) {
+			carried.held[c]         = 1;
+			carried.heldPressure[c] = part.heldPressure / part.heldGas;
+		}
 	}
 	return carried;
 }

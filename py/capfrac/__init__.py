@@ -6,6 +6,7 @@ An extension of YADE. ``import capfrac`` in a YADE script or session adds the cl
 * ``Ip2_DiskMat_DiskMat_CohFrictPhys``, ``Ip2_WallMat_DiskMat_CohFrictPhys``, ``Ig2_Wall_Sphere_ScGeom6D``:
   their contacts,
 * ``PoreNetworkEngine``, ``GasInvasionEngine``: the pores, and gas that enters them,
+* ``MeniscusCohesionEngine``: menisci that pull grains together where both fluids meet,
 * ``WallServoEngine``: walls that hold stresses,
 
 to ``yade.wrapper`` (and to the session's names), and gives what is around them:
@@ -47,7 +48,7 @@ def load_engines():
             "or YADE with `capfrac yade`, which know where everything is"
         ) from problem
     names = ["DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D",
-             "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "WallServoEngine"]
+             "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine"]
     main = importlib.import_module("__main__")
     for name in names:
         # A YADE session has YADE's classes among its own names: ours belong there too.

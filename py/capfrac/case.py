@@ -4,6 +4,7 @@
 An unknown key, a value of the wrong kind or out of range is refused by name, with what is allowed.
 """
 
+import math
 from pathlib import Path
 
 from capfrac import keys
@@ -33,10 +34,29 @@ KEYS = (
     notNegative("cohesion", "chi", "-", 0.0, "Bond strength that follows the grain size: sigma_c = tau_c = chi gamma / r."),
     notNegative("cohesion", "tensileStrength", "Pa", 0.0, "Part of the tensile strength sigma_c that does not depend on grain size."),
     notNegative("cohesion", "shearStrength", "Pa", 0.0, "Part of the shear strength tau_c that does not depend on grain size."),
+    Key("cohesion", "menisci", str, "-", "none", "Menisci that pull where gas and water meet: none, of constant force, or pendular bridges.", choices=("none", "constant", "bridge")),
+    positive("cohesion", "meniscusChi", "-", 10.0, "Strength of menisci of constant force, chi in sigma_c = chi gamma / r."),
     positive("gas", "interfacialTension", "N/m", 0.05, "Interfacial tension gamma of gas and water."),
     Key("gas", "contactAngle", float, "degrees", 0.0, "Contact angle through the water, below 90.", low=0, high=89.9),
     Key("gas", "entryLaw", str, "-", "inscribedSphere", "Law of the entry pressure.", choices=("inscribedSphere", "mayerStowePrincen")),
     Key("gas", "trapping", bool, "-", False, "Whether water that is cut off from the outlet stays (true) or drains by films (false)."),
+    Key("gas", "law", str, "-", "incompressible", "Equation of state; a rate or a reservoir needs a compressible one.", choices=("incompressible", "ideal", "tabulated")),
+    positive("gas", "molarMass", "kg/mol", 0.016043, "Molar mass of the gas; methane."),
+    positive("gas", "temperature", "K", 293.15, "Temperature of the gas, constant."),
+    positive("gas", "deviation", "-", 1.0, "Deviation factor Z of the gas, 1 for an ideal one."),
+    Key("gas", "table", list, "Pa, kg/m^3", (), "Pairs [absolute pressure, density] of the tabulated law, both ascending, at least two."),
+    Key("gas", "datum", float, "Pa", 101325.0, "Absolute pressure of the water: pressures of a case count from it."),
+    Key("gas", "imbibition", bool, "-", False, "Whether water refills pores when the capillary pressure falls, and cut-off gas is trapped."),
+    Key("gas", "snapOff", bool, "-", False, "With imbibition: whether water films snap the gas in throats off; contactAngle < 45."),
+    notNegative("gas", "filmConductance", "m^3/(Pa s)", 0.0, "With trapping: what trapped water loses by films per pressure difference; 0 locks it."),
+    notNegative("gas", "waterDensity", "kg/m^3", 0.0, "Density of the water; 0 is weightless."),
+    notNegative("gas", "gasDensity", "kg/m^3", 0.0, "Density of the gas; 0 is weightless."),
+    Key("gas", "gravity", list, "m/s^2", (0.0, 0.0), "Acceleration of gravity [x, y] on water and gas (not on the grains); pressures are those at the inlet."),
+    positive("gas", "viscosity", "Pa s", 1.1e-5, "Viscosity of the gas, with water.flow = 'solved'; methane."),
+    Key("water", "flow", str, "-", "drained", "Drained: water at a constant pressure that gives way at once; solved: viscous, compressible, flows to the outlet.", choices=("drained", "solved")),
+    positive("water", "viscosity", "Pa s", 1e-3, "Viscosity of the water, with water.flow = 'solved'."),
+    positive("water", "bulkModulus", "Pa", 2.2e9, "Bulk modulus of the water, with water.flow = 'solved'."),
+    positive("water", "conductanceFactor", "-", 1.0, "Factor of all conductances of throats, with water.flow = 'solved'."),
     Key("inlet", "wall", str, "-", "bottom", "Wall with the inlet.", choices=("left", "right", "bottom", "top")),
     Key("inlet", "outlet", str, "-", "top", "Wall where the water leaves, or any for all four; gas there has broken through.", choices=("left", "right", "bottom", "top", "any")),
     Key("inlet", "pores", int, "-", 0, "Number of neighbouring pores along the wall that are the inlet, around its middle.", low=0),
@@ -52,6 +72,13 @@ KEYS = (
     Key("ramp", "minLevelSteps", int, "-", 100, "Time steps that a pressure level lasts at least.", low=1),
     Key("ramp", "maxLevelSteps", int, "-", 20000, "Time steps after which the pressure rises though the grains still move.", low=1),
     Key("ramp", "invasionInterval", int, "-", 0, "Time steps between one invaded pore and the next; 0: whole avalanches while the grains stand still.", low=0),
+    Key("supply", "control", str, "-", "pressure", "What is prescribed: the pressure (ramp or program), the rate of gas, or a reservoir of gas.", choices=("pressure", "rate", "reservoir")),
+    Key("supply", "program", list, "Pa", (), "Instead of the ramp: turning points of the capillary pressure, up or down, approached in steps of ramp.increment."),
+    notNegative("supply", "rate", "kg/s", 0.0, "Mass of gas per time with supply.control = 'rate'."),
+    notNegative("supply", "reservoirVolume", "m^3", 0.0, "Volume of gas upstream of the inlet, filled at ramp.start; with a rate, its dead volume."),
+    Key("supply", "maxMass", float, "kg", None, "Mass supplied since the start that ends the run.", low=0, openLow=True),
+    Key("supply", "maxTime", float, "s", None, "Time since the start of the injection that ends the run.", low=0, openLow=True),
+    Key("supply", "historyInterval", int, "-", 100, "Time steps between two rows of history.csv; 0: a row per level.", low=0),
     Key("network", "poreMode", str, "-", "domain", "What a pore is.", choices=("domain", "triangle")),
     notNegative("network", "mergeTolerance", "-", 1e-3, "Gap beyond which grains do not touch, in smallest radii."),
     positive("network", "openingThreshold", "-", 0.01, "Growth of a gap, in mean radii, beyond which its throat counts as opened."),
@@ -119,12 +146,64 @@ def _checkTogether(case, source):
         raise CaseError(f"{source}: ramp.max = {ramp['max']} Pa, allowed: >= ramp.start = {ramp['start']} Pa")
     if ramp["maxLevelSteps"] < ramp["minLevelSteps"]:
         raise CaseError(f"{source}: ramp.maxLevelSteps = {ramp['maxLevelSteps']}, allowed: >= ramp.minLevelSteps = {ramp['minLevelSteps']}")
+    _checkSupply(case, source)
     if case["gas"]["entryLaw"] == "mayerStowePrincen" and case["gas"]["contactAngle"] != 0:
         raise CaseError(f"{source}: gas.contactAngle = {case['gas']['contactAngle']}, allowed: 0 with gas.entryLaw = 'mayerStowePrincen'")
+    _checkDisplacement(case["gas"], case["water"], source)
     if not all(isinstance(p, (int, float)) and p >= 0 for p in case["output"]["pressures"]):
         raise CaseError(f"{source}: output.pressures = {case['output']['pressures']}, allowed: numbers >= 0 [Pa]")
     if not all(isinstance(text, str) for text in case["case"]["assumptions"]):
         raise CaseError(f"{source}: case.assumptions, allowed: a list of texts")
+
+
+def _checkSupply(case, source):
+    gas, supply, ramp = case["gas"], case["supply"], case["ramp"]
+    for pair in gas["table"]:
+        if not (isinstance(pair, (list, tuple)) and len(pair) == 2 and all(_isNumber(v) and v > 0 for v in pair)):
+            raise CaseError(f"{source}: gas.table holds {pair!r}, allowed: pairs [absolute pressure in Pa, density in kg/m^3], finite and > 0")
+    if any(b <= a for one, next in zip(gas["table"], gas["table"][1:]) for a, b in zip(one, next)):
+        raise CaseError(f"{source}: gas.table = {gas['table']}, allowed: ascending pressures and densities")
+    if gas["law"] == "tabulated" and len(gas["table"]) < 2:
+        raise CaseError(f"{source}: gas.table has {len(gas['table'])} pairs, allowed: at least two with gas.law = 'tabulated'")
+    if gas["law"] != "incompressible" and gas["datum"] <= 0:
+        raise CaseError(f"{source}: gas.datum = {gas['datum']} Pa, allowed: > 0, an absolute pressure, with gas.law = '{gas['law']}'")
+    if not all(_isNumber(p) and p >= 0 for p in supply["program"]):
+        raise CaseError(f"{source}: supply.program = {supply['program']}, allowed: numbers >= 0 [Pa]")
+    if supply["control"] == "pressure":
+        return
+    if gas["law"] == "incompressible":
+        raise CaseError(f"{source}: supply.control = '{supply['control']}', allowed: 'pressure' with gas.law = 'incompressible', as no pressure follows from the "
+                        "amount of a gas that does not yield; set gas.law = 'ideal' or 'tabulated'")
+    if supply["program"]:
+        raise CaseError(f"{source}: supply.program = {supply['program']}, allowed: none with supply.control = '{supply['control']}'")
+    if supply["control"] == "rate" and supply["rate"] == 0:
+        raise CaseError(f"{source}: supply.rate = 0, allowed: > 0 [kg/s] with supply.control = 'rate'")
+    if supply["control"] == "reservoir" and supply["reservoirVolume"] == 0:
+        raise CaseError(f"{source}: supply.reservoirVolume = 0, allowed: > 0 [m^3] with supply.control = 'reservoir'")
+    if ramp["max"] == ramp["start"]:
+        raise CaseError(f"{source}: ramp.max = {ramp['max']} Pa, allowed: > ramp.start with supply.control = '{supply['control']}': it ends the run")
+
+
+def _isNumber(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _checkDisplacement(gas, water, source):
+    if water["flow"] == "solved":
+        if gas["law"] == "incompressible":
+            raise CaseError(f"{source}: gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved', as the pressure of the gas follows from its mass")
+        if gas["imbibition"]:
+            raise CaseError(f"{source}: gas.imbibition = true, allowed: false with water.flow = 'solved': gas does not recede")
+        if any(gas["gravity"]) and (gas["waterDensity"] or gas["gasDensity"]):
+            raise CaseError(f"{source}: gas.gravity = {list(gas['gravity'])}, allowed: [0, 0], or fluids without weight, with water.flow = 'solved'")
+    if gas["snapOff"] and gas["contactAngle"] >= 45:
+        raise CaseError(f"{source}: gas.contactAngle = {gas['contactAngle']}, allowed: < 45 [degrees] with gas.snapOff (films in corners of 45 degrees swell while both angles are below 90)")
+    if gas["snapOff"] and not gas["imbibition"]:
+        raise CaseError(f"{source}: gas.snapOff = true, allowed: false without gas.imbibition")
+    if gas["filmConductance"] > 0 and not gas["trapping"] and water["flow"] == "drained":
+        raise CaseError(f"{source}: gas.filmConductance = {gas['filmConductance']}, allowed: 0 without gas.trapping (films then drain trapped water at once)")
+    if not (len(gas["gravity"]) == 2 and all(_isNumber(g) for g in gas["gravity"])):
+        raise CaseError(f"{source}: gas.gravity = {list(gas['gravity'])}, allowed: two finite numbers [x, y] [m/s^2]")
 
 
 def describeKeys():

@@ -34,6 +34,8 @@ class _Progress:
 
     def __init__(self, case, quiet):
         self.ramp, self.quiet, self.meter, self.last = case["ramp"], quiet, None, ""
+        #: A ramp tells how far the run is; a rate, a reservoir or a program does not: a fracture may end it at any time.
+        self.ramped = case["supply"]["control"] == "pressure" and not case["supply"]["program"]
 
     def report(self, text):
         if self.quiet:
@@ -55,9 +57,9 @@ class _Progress:
             if sys.stderr.isatty():
                 sys.stderr.write("\r\033[K")
             self.meter = tqdm(total=self.ramp["max"] - self.ramp["start"], unit="Pa", unit_scale=True, desc="gas", mininterval=0.5 if sys.stderr.isatty() else 15,
-                              bar_format="{desc} {percentage:3.0f}%|{bar:25}| {elapsed}<{remaining} {postfix}")
+                              bar_format="{desc} {percentage:3.0f}%|{bar:25}| {elapsed}<{remaining} {postfix}" if self.ramped else "{desc} {elapsed} {postfix}")
         self.meter.set_postfix_str(f"P_c = {pressure:.4g} Pa, S_g = {saturation:.1%}", refresh=False)
-        self.meter.update(pressure - self.ramp["start"] - self.meter.n)
+        self.meter.update(pressure - self.ramp["start"] - self.meter.n if self.ramped else 1)
 
     def close(self):
         if self.meter is not None:

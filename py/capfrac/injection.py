@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from capfrac import export, figures, mode, sediment, snapshot
+from capfrac import export, figures, history, mode, sediment, snapshot
 from capfrac.case import MAX_SIZE_RATIO, readCase, resolveCase
 from capfrac.errors import CapfracError, CaseError, RunFolderError, SceneError
 from capfrac.runfolder import RunFolder, holdingInterrupts
@@ -58,6 +58,26 @@ def startInjection(start, increment, max, pores=0, wall="bottom", outlet="top", 
     return sediment.insertFluid(gas)
 
 
+def addMenisci(law="bridge", **attributes):
+    """Put a ``MeniscusCohesionEngine`` (label ``menisci``) of that ``law`` before the gas engine of :func:`startInjection`; returns the engine.
+
+    Interfacial tension and contact angle are the gas's unless given. Raises :class:`CaseError` for an attribute out of range, :class:`SceneError` where
+    the scene has no engine ``gas``.
+    """
+    from yade import O
+    from yade.wrapper import MeniscusCohesionEngine
+
+    gas = sediment.engine("gas")
+    try:
+        menisci = MeniscusCohesionEngine(label="menisci", law=law, **attributes)
+    except ValueError as problem:
+        raise CaseError(str(problem)) from None
+    engines = list(O.engines)
+    engines.insert(engines.index(gas), menisci)
+    O.engines = engines
+    return sediment.engine("menisci")
+
+
 def _middle(wall):
     ends = ("bottom", "top") if wall in ("left", "right") else ("left", "right")
     axis = 1 if wall in ("left", "right") else 0
@@ -84,19 +104,28 @@ def _makeSample(case, say):
 
 
 def _startGas(case):
-    inlet, gas, ramp, network = case["inlet"], case["gas"], case["ramp"], case["network"]
+    inlet, gas, water, ramp, supply, network = (case[section] for section in ("inlet", "gas", "water", "ramp", "supply", "network"))
     walls = sediment.wallBodies()
     axis = 1 if inlet["wall"] in ("left", "right") else 0
     low = walls["bottom" if axis else "left"].state.pos[axis]
     corner = (walls["left"].state.pos[0], walls["bottom"].state.pos[1])
     stretch = None if inlet["from"] is None else (low + inlet["from"], low + inlet["to"])
-    return startInjection(
+    engine = startInjection(
         ramp["start"], ramp["increment"], ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"], stretch,
         [(corner[0] + x, corner[1] + y) for x, y in inlet["points"]],
         interfacialTension=gas["interfacialTension"], contactAngle=math.radians(gas["contactAngle"]), entryLaw=gas["entryLaw"],
-        trapping=gas["trapping"], poreMode=network["poreMode"], mergeTolerance=network["mergeTolerance"],
+        gasLaw=gas["law"], gasMolarMass=gas["molarMass"], gasTemperature=gas["temperature"], gasDeviation=gas["deviation"],
+        gasTable=[tuple(map(float, pair)) for pair in gas["table"]], pressureDatum=gas["datum"],
+        gasControl=supply["control"], pressureProgram=[float(p) for p in supply["program"]], gasRate=supply["rate"],
+        reservoirVolume=supply["reservoirVolume"], historyInterval=supply["historyInterval"],
+        **{name: gas[name] for name in ("trapping", "imbibition", "snapOff", "filmConductance", "gasDensity")},
+        waterFlow=water["flow"], viscosity=water["viscosity"], bulkModulus=water["bulkModulus"], conductanceFactor=water["conductanceFactor"], gasViscosity=gas["viscosity"],
+        fluidDensity=gas["waterDensity"], gravity=tuple(gas["gravity"]), poreMode=network["poreMode"], mergeTolerance=network["mergeTolerance"],
         openingThreshold=network["openingThreshold"], checkInvariants=network["checkInvariants"],
         unbalancedTolerance=ramp["unbalanced"], minLevelSteps=ramp["minLevelSteps"], invasionInterval=ramp["invasionInterval"], maxLevelSteps=ramp["maxLevelSteps"])
+    if case["cohesion"]["menisci"] != "none":
+        addMenisci(case["cohesion"]["menisci"], chi=case["cohesion"]["meniscusChi"])
+    return engine
 
 
 class Run:
@@ -108,6 +137,11 @@ class Run:
         self.begun = False  #: whether there is a run to take up again
         self.spent = folder.summary.get("seconds", 0.0)
         self.clock = time.time()
+
+    @property
+    def ramped(self):
+        """Whether the pressure goes up a ramp, which can be stopped at chosen pressures."""
+        return self.case["supply"]["control"] == "pressure" and not self.case["supply"]["program"]
 
     def begin(self):
         """Make the sample and start the gas, or take up the checkpoint."""
@@ -128,7 +162,8 @@ class Run:
             sample={"grains": len(O.bodies) - 4, "boxWidth [m]": sediment.boxSize()[0], "boxHeight [m]": sediment.boxSize()[1], "stress [Pa]": list(sediment.engine("servo").stress),
                     "porosity": self.gas.volumes()["void"] / math.prod(sediment.boxSize()), "bondsSet": nBonds, "bondsHolding": bonded,
                     "rattlers": len(self.gas.rattlers), "throatEntryPressureMin [Pa]": min(throats), "throatEntryPressureMax [Pa]": max(throats),
-                    "inletPores": self.gas.inletPores, "inletWidth [m]": self.gas.inletWidth})
+                    "inletPores": self.gas.inletPores, "inletWidth [m]": self.gas.inletWidth,
+                    "startTime [s]": O.time, "pressureRisePerPeriod [Pa]": self.gas.risePerPeriod()})
         self.start = snapshot.takeSnapshot(self.gas)
         self.picture("start")
         self.checkpoint()
@@ -180,6 +215,8 @@ class Run:
 
     def ended(self):
         """Why the run is over, or an empty text."""
+        from yade import O
+
         ramp = self.case["ramp"]
         if ramp["endAt"] == "breakthrough" and self.gas.breakthroughIter >= 0:
             return "gas reached the outlet"
@@ -187,7 +224,19 @@ class Run:
         growth = max(sediment.boxSize()[0] / before["boxWidth [m]"], sediment.boxSize()[1] / before["boxHeight [m]"]) - 1
         if growth > ramp["maxExtension"]:
             return f"the sample came apart: the box grew by {growth:.0%}"
-        if self.gas.rampDone and self.gas.gasPressure - self.gas.waterPressure >= ramp["max"]:
+        supply, pressure = self.case["supply"], self.gas.gasPressure - self.gas.waterPressure
+        supplied = self.gas.injectedGasMass - self.gas.initialGasMass
+        if supply["maxMass"] is not None and supplied >= supply["maxMass"]:
+            return f"{figures.quantity(supplied * 1e3, 'g')} of gas were supplied"
+        if supply["maxTime"] is not None and O.time - before["startTime [s]"] >= supply["maxTime"]:
+            return f"{figures.quantity(O.time - before['startTime [s]'], 's')} are over"
+        if supply["control"] == "reservoir" and self.gas.rampDone:
+            return "the grains are at rest under the gas of the reservoir"
+        if supply["control"] != "pressure" and pressure >= ramp["max"]:
+            return f"the capillary pressure reached ramp.max = {figures.quantity(ramp['max'], 'Pa')}"
+        if supply["program"] and self.gas.rampDone:
+            return "the program is done"
+        if self.ramped and self.gas.rampDone and self.gas.gasPressure - self.gas.waterPressure >= ramp["max"]:
             return "the ramp is done"
         return ""
 
@@ -202,7 +251,7 @@ class Run:
         seen = 0
         while True:
             gas = self.gas  # another one after each checkpoint
-            gas.maxPressure = water + (stops[0] if stops else self.case["ramp"]["max"])
+            gas.maxPressure = water + (stops[0] if stops and self.ramped else self.case["ramp"]["max"])
             sediment.advance(CHUNK - O.iter % CHUNK)
             bar(gas.gasPressure - water, gas.gasSaturation)
             if gas.nEvents > seen:
@@ -213,7 +262,7 @@ class Run:
             if gas.breakthroughIter >= 0 and "breakthrough" not in taken:
                 taken.add("breakthrough")
                 self.picture("breakthrough")
-            if stops and gas.rampDone:
+            if stops and (gas.rampDone if self.ramped else gas.gasPressure - water >= stops[0]):
                 self.picture(f"{stops.pop(0):.0f}Pa")
                 continue
             reason = self.ended()
@@ -238,6 +287,11 @@ class Run:
             "largestDisplacementAtEnd [r]": float(moved[~last.rattler].max()) if not last.rattler.all() else 0.0, "remeshes": gas.nRemeshes,
             "forceNetwork": mode.forceNetworkChange(self.start, last),
             "ledger [m^3]": dict(gas.volumes()), "iterations": levels["iteration"][-1] if levels["iteration"] else 0}
+        course = gas.history()
+        history.drawHistory(course, self.folder.path / "history.png", events=gas.events(), breakthroughIter=gas.breakthroughIter,
+                            startTime=self.folder.summary["sample"]["startTime [s]"], waterPressure=gas.waterPressure, title=self.case["case"]["title"])
+        results["gas"] = {**{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
+                          "highestCapillaryPressure [Pa]": max(course["gasPressure"], default=gas.gasPressure) - gas.waterPressure}
         self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results)
         self.folder.checkpoint.unlink(missing_ok=True)
 

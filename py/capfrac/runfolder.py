@@ -3,6 +3,7 @@
     summary.json          versions, parameters, seed, results, state of the run
     events.csv            every pore that gas entered: when, where, through which throat, at which pressure
     pc_saturation.csv     every pressure level: capillary pressure, saturation, bonds, displacement
+    history.csv           the course in time: gas pressure, volume and mass of the gas, saturation, broken bonds
     snapshots/            the states that pictures are drawn from (.npz) and the pictures (.png)
     fields/               fields for ParaView: open the .pvd files
     checkpoint.yade.gz    the scene of the last checkpoint; only while the run is not finished
@@ -68,7 +69,7 @@ class RunFolder:
     """A run folder, opened for a case. Raises :class:`RunFolderError` when it cannot be used for it."""
 
     #: What a run writes: files, folders, and endings of the files in those folders.
-    FILES = ("events.csv", "pc_saturation.csv", "curve.png", "checkpoint.yade.gz")
+    FILES = ("events.csv", "pc_saturation.csv", "curve.png", "history.csv", "history.png", "checkpoint.yade.gz")
     FOLDERS = ("snapshots", "fields")
     SUFFIXES = (".npz", ".png", ".vtu", ".pvd")
 
@@ -179,8 +180,8 @@ class RunFolder:
         self.writeWhole(name, write)
 
     def writeLogs(self, gas):
-        """Write events.csv and pc_saturation.csv from the engine's logs."""
-        e, levels = gas.events(), gas.levels()
+        """Write events.csv, pc_saturation.csv and history.csv from the engine's logs."""
+        e, levels, history = gas.events(), gas.levels(), gas.history()
         self.writeTable("events.csv", {
             "event": list(range(1, len(e["time"]) + 1)), "time [s]": e["time"], "iteration": e["iteration"], "level": e["level"],
             "capillaryPressure [Pa]": [p - gas.waterPressure for p in e["gasPressure"]],
@@ -194,4 +195,9 @@ class RunFolder:
             "gasSaturation": levels["gasSaturation"], "gasVolume [m^3]": levels["gasVolume"], "brokenBonds": levels["brokenBonds"],
             "displacement [r]": levels["displacement"], "displacementWithRattlers [r]": levels["displacementWithRattlers"],
             "unbalanced": levels["unbalanced"], "atRest": [int(rest) for rest in levels["atRest"]], "iteration": levels["iteration"],
+        })
+        self.writeTable("history.csv", {
+            "time [s]": history["time"], "iteration": history["iteration"], "capillaryPressure [Pa]": [p - gas.waterPressure for p in history["gasPressure"]],
+            "connectedVolume [m^3]": history["connectedVolume"], "mass [kg]": history["mass"], "gasSaturation": history["gasSaturation"],
+            "brokenBonds": history["brokenBonds"], "level": history["level"],
         })

@@ -12,12 +12,12 @@ import yade.wrapper as wrapper
 import capfrac
 
 CLASSES = ["DiskMat", "WallMat", "Ig2_Wall_Sphere_ScGeom6D", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys",
-           "PoreNetworkEngine", "GasInvasionEngine", "WallServoEngine"]
+           "PoreNetworkEngine", "GasInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine"]
 HEADERS = sorted((Path(__file__).resolve().parents[2] / "pkg" / "engines").glob("*.hpp"))
 #: ((type,name,default,flags,"documentation")) as YADE's class macros have it.
 ATTRIBUTE = re.compile(r'^\t*\(\((?P<type>[\w:<>]+),(?P<name>\w+),(?P<middle>.*?),"(?P<doc>(?:[^"\\]|\\.)*)"\)\)', re.MULTILINE)
 #: A unit in square brackets, [-] for none; not a reference like [Jain2008]_.
-UNIT = re.compile(r"\[(-|ids|(?:m|s|N|Pa|kg|rad|J)(?:·s|[²³]|\^-?\d|/(?:m|s|kg)[²³]?)*)\](?!_)")
+UNIT = re.compile(r"\[(-|ids|(?:m|s|N|Pa|kg|rad|J|K)(?:·s|[²³]|\^-?\d|/(?:m|s|kg|mol|\(Pa·s\))[²³]?)*)\](?!_)")
 MODULES = [module.name.removeprefix("capfrac.") for module in pkgutil.walk_packages(capfrac.__path__, "capfrac.") if "._" not in module.name]
 
 

@@ -142,9 +142,40 @@ def test_mandel(tmp_path):
     assert (tmp_path / "run" / "pictures" / "mandel.png").stat().st_size > 5000
 
 
+def test_rate(tmp_path):
+    found = example("22_rate").main(60, 2, str(tmp_path / "run"), volumes=(1, 30), rise=600.0)
+    for volume, one in found.items():
+        assert one["ledger"] < 1e-10 and 100e3 < one["breakthrough"] <= one["highest"]
+        assert (tmp_path / "run" / f"history-{volume}.png").stat().st_size > 5000
+    # Each pore takes as much from either; of the small volume that is more.
+    assert found[1]["lowestAfter"] < found[30]["lowestAfter"] and found[1]["highest"] < 241e3
+
+
 def test_stability(tmp_path):
     found = example("19_stability").main(str(tmp_path / "run"), grainCount=30, steps=600)
     ends = {name: one["end"] for name, one in found["shake"].items()}
     assert {name for name, end in ends.items() if end != "bounded"} == {"2.2e+09 Pa, implicit", "2.2e+09 Pa, explicit"}
     assert all(one["ledger"] < 1e-12 for one in found["stir"].values())
     assert (tmp_path / "run" / "pictures" / "stability.png").stat().st_size > 5000
+
+
+def test_cycle(tmp_path):
+    found, table = example("23_cycle").main(str(tmp_path / "cycle.png"), grainCount=60, seed=2, increment=10.0)
+    assert found["maximum"] > 0.9 and 0 < found["trapped"] <= found["residual"] < found["maximum"] and found["area"] > 0
+    assert (tmp_path / "cycle.png").stat().st_size > 20000
+
+
+def test_buoyancy():
+    found = example("24_buoyancy").main(count=60, seeds=2)
+    assert 0 < found["from below"] < 1 and 0 < found["from above"] <= 1
+    assert found["column"] == pytest.approx(150e3 / (954 * 9.80665))
+
+
+def test_percolation(tmp_path):
+    sizes = [16, 32, 64]
+    found = example("21_percolation").main(str(tmp_path / "run"), sizes=sizes, delaunaySizes=sizes, samples=20, delaunaySamples=20, radiusSize=128, radiusSamples=10)
+    for network in ("square", "delaunay"):
+        for kind, one in found[network].items():
+            # Four standard errors, and 0.03 for the smallest networks: tests/verification and the manual have larger ones.
+            assert one["dimension"] == pytest.approx(found["literature"][kind], abs=4 * one["dimensionError"] + 0.03)
+    assert (tmp_path / "run" / "pictures" / "percolation.png").stat().st_size > 50_000

@@ -33,7 +33,7 @@ def attributesOf(thing):
 
 def reports(gas):
     return {"cells": gas.cells(), "throats": gas.throats(), "volumes": gas.volumes(), "events": gas.events(), "levels": gas.levels(),
-            "forces": gas.fluidForces(), "broken": gas.brokenBonds(), "next": gas.nextEntryPressure()}
+            "forces": gas.fluidForces(), "broken": gas.brokenBonds(), "next": gas.nextEntryPressure(), "ledger": gas.gasLedger(), "history": gas.history()}
 
 
 def reload(tmp_path):
@@ -42,11 +42,16 @@ def reload(tmp_path):
     O.load(str(tmp_path / "scene.yade.gz"), quiet=True)
 
 
+#: The same sample under a rate, torn within the 2000 steps, too.
+SUPPLIED = dict(gasLaw="ideal", gasControl="rate", gasRate=3e-5, reservoirVolume=3e-10, invasionInterval=20, historyInterval=10)
+
+
+@pytest.mark.parametrize("supply", [{}, SUPPLIED], ids=["ramp", "rate"])
 @pytest.mark.parametrize("steps", [0, 10, 1200, 2000])
-def test_stateIsTheSameToTheBit(loadSample, tmp_path, steps):
+def test_stateIsTheSameToTheBit(loadSample, tmp_path, steps, supply):
     # Before the first step, in the intact sample, and torn (levels, events, broken bonds, remeshings).
     loadSample(1e-6)
-    gas = injection.startInjection(**STARTED, poreMode="domain", trapping=True)
+    gas = injection.startInjection(**STARTED, poreMode="domain", trapping=True, **supply)
     O.run(steps, True) if steps else None
     before, attributes, servo = reports(gas), attributesOf(gas), attributesOf(sediment.engine("servo"))
     if steps >= 1200:
@@ -64,11 +69,12 @@ def test_stateIsTheSameToTheBit(loadSample, tmp_path, steps):
 PACKAGED = "COMPLEX_MP" in config.features
 
 
+@pytest.mark.parametrize("supply", [{}, SUPPLIED], ids=["ramp", "rate"])
 @pytest.mark.parametrize("cut", [300, 1100])
-def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path, cut):
+def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path, cut, supply):
     def run(interrupt):
         loadSample(1e-6)
-        injection.startInjection(**STARTED)
+        injection.startInjection(**STARTED, **supply)
         O.run(cut, True)
         if interrupt:
             reload(tmp_path)
@@ -85,6 +91,33 @@ def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path, cut):
             assert continued[0]["events"][column] == pytest.approx(whole[0]["events"][column], rel=1e-9, abs=1e-15), column
         else:
             assert continued[0]["events"][column] == whole[0]["events"][column], column
+    if not PACKAGED:
+        assert same(continued, whole)
+
+
+def test_continuedImbibitionIsTheUninterruptedOne(loadSample, tmp_path):
+    """Trapped gas, its pressure and the throats that are snapped off survive: the rest of the cycle has the same bits."""
+
+    def run(interrupt):
+        loadSample(1e-3)
+        injection.startInjection(start=250, increment=0, max=251, pores=2, imbibition=True, snapOff=True, fluidDensity=1000, gravity=(0, -9.81), checkInvariants=True)
+        O.run(300, True)
+        sediment.engine("gas").gasPressure = 90
+        O.run(300, True)
+        gas = sediment.engine("gas")
+        assert gas.nReturns > 5 and any(gas.cells()["cutOff"]) and "snapOff" in gas.imbibitionEvents()["kind"]
+        if interrupt:
+            before = reports(gas), gas.imbibitionEvents()
+            reload(tmp_path)
+            gas = sediment.engine("gas")
+            assert same((reports(gas), gas.imbibitionEvents()), before)
+        for pressure in (40, 250):
+            gas.gasPressure = pressure
+            O.run(300, True)
+        assert "reopening" in gas.imbibitionEvents()["kind"]
+        return reports(gas), gas.imbibitionEvents(), attributesOf(gas)
+
+    whole, continued = run(False), run(True)
     if not PACKAGED:
         assert same(continued, whole)
 
@@ -121,7 +154,10 @@ ENGINES = [
     (GasInvasionEngine, dict(interfacialTension=0.07, contactAngle=0.3, gasPressure=11, pressureIncrement=2, maxPressure=33, unbalancedTolerance=2e-3,
                              minLevelSteps=7, maxLevelSteps=70, inletWall="left", inletFrom=0.1, inletTo=0.2, inletPoints=[(0.5, 0.25), (1, 2)],
                              outletWall="right", trapping=True, openingThreshold=0.03, checkInvariants=True, restDisplacement=0.02)),
+    (GasInvasionEngine, dict(gasLaw="ideal", gasMolarMass=0.02, gasTemperature=280, gasDeviation=0.8, pressureDatum=2e5, gasControl="rate", gasRate=3e-6,
+                             reservoirVolume=1e-9, historyInterval=5, pressureProgram=[3, 1])),
     (GasInvasionEngine, dict(entryLaw="mayerStowePrincen")),
+    (GasInvasionEngine, dict(imbibition=True, snapOff=True, trapping=True, filmConductance=1e-12, fluidDensity=1024, gasDensity=80, gravity=(1, -9.5))),
     (WallServoEngine, dict(stressX=5, stressY=6, fixedWalls=["left", "top"], gain=0.5, maxVelocity=0.2, thickness=0.3)),
 ]
 

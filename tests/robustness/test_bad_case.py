@@ -52,10 +52,30 @@ BAD = [
     (dict(output__pressures=["x"]), r"output.pressures = \['x'\]"),
     (dict(case__assumptions=[1]), "case.assumptions, allowed: a list of texts"),
     # impossible together
+    (dict(gas__snapOff=True, gas__imbibition=True, gas__contactAngle=50.0), r"gas.contactAngle = 50.0, allowed: < 45 \[degrees\] with gas.snapOff"),
+    (dict(gas__snapOff=True), "gas.snapOff = true, allowed: false without gas.imbibition"),
+    (dict(gas__filmConductance=1e-12), "gas.filmConductance = 1e-12, allowed: 0 without gas.trapping"),
+    (dict(gas__filmConductance=-1.0), "gas.filmConductance = -1"),
+    (dict(gas__gravity=[9.81]), r"gas.gravity = \[9.81\], allowed: two finite numbers"),
     (dict(grains__rMax=0.5e-3), "grains.rMax = 0.0005 m, allowed: >= grains.rMin = 0.001 m"),
     (dict(grains__rMax=20e-3), "grains.rMax / grains.rMin = 20, allowed: up to 10"),
     (dict(inlet__pores=0), "no inlet or several; give one of inlet.pores, inlet.from with inlet.to, inlet.points"),
     (dict(inlet__points=[[1e-3, 1e-3]]), "no inlet or several"),
+    (dict(gas__law="cubic"), "gas.law = 'cubic', allowed: 'incompressible', 'ideal', 'tabulated'"),
+    (dict(gas__temperature=0), r"gas.temperature = 0, allowed: a number > 0 \[K\]"),
+    (dict(gas__law="ideal", gas__datum=-1.0), r"gas.datum = -1.0 Pa, allowed: > 0, an absolute pressure, with gas.law = 'ideal'"),
+    (dict(gas__law="tabulated"), "gas.table has 0 pairs, allowed: at least two with gas.law = 'tabulated'"),
+    (dict(gas__table=[[1e5, 1.0], [2e5]]), r"gas.table holds \[200000.0\], allowed: pairs"),
+    (dict(gas__table=[[1e5, 1.0], [1e5, 2.0]]), "gas.table = .*, allowed: ascending"),
+    (dict(supply__control="volume"), "supply.control = 'volume', allowed: 'pressure', 'rate', 'reservoir'"),
+    (dict(supply__program=[100, float("nan")]), r"supply.program = \[100, nan\], allowed: numbers >= 0 \[Pa\]"),
+    (dict(supply__rate=-1e-6), r"supply.rate = -1e-06, allowed: a number >= 0 \[kg/s\]"),
+    (dict(supply__maxTime=0), r"supply.maxTime = 0, allowed: a number > 0 \[s\]"),
+    (dict(supply__historyInterval=-1), "supply.historyInterval = -1"),
+    (dict(supply__control="rate", supply__rate=1e-6), "supply.control = 'rate', allowed: 'pressure' with gas.law = 'incompressible', as no pressure follows"),
+    (dict(supply__control="rate", gas__law="ideal"), r"supply.rate = 0, allowed: > 0 \[kg/s\] with supply.control = 'rate'"),
+    (dict(supply__control="reservoir", gas__law="ideal"), r"supply.reservoirVolume = 0, allowed: > 0 \[m\^3\] with supply.control = 'reservoir'"),
+    (dict(supply__control="rate", supply__rate=1e-6, gas__law="ideal", supply__program=[150.0]), "supply.program = .*, allowed: none with supply.control = 'rate'"),
     (dict(inlet__pores=0, inlet__from=1e-3), r"inlet.from = 0.001, inlet.to = None; allowed: both given, from < to"),
     (dict(inlet__pores=0, inlet__from=2e-3, inlet__to=1e-3), "inlet.from = 0.002, inlet.to = 0.001"),
     (dict(inlet__pores=0, inlet__points=[[1e-3]]), r"inlet.points holds \[0.001\], allowed: pairs \[x, y\] in metres"),
@@ -88,7 +108,7 @@ def test_missingKeyIsNamed(missing):
 
 
 def test_caseFilesThatCannotBeRead(tmp_path):
-    with pytest.raises(CaseError, match="the case 'nowhere.toml' cannot be read .*; shipped cases: figure15, figure16, hydrate_ridge"):
+    with pytest.raises(CaseError, match="the case 'nowhere.toml' cannot be read .*; shipped cases: figure15, figure15_solved, figure16, figure16_rate, figure16_solved, hydrate_ridge"):
         case.readCase("nowhere.toml")
     (tmp_path / "broken.toml").write_text("[grains\n")
     with pytest.raises(CaseError, match="broken.toml is not valid TOML: "):

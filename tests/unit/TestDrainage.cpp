@@ -210,6 +210,26 @@ TEST(Drainage, PathOfPressureDoesNotMatter)
 		}
 }
 
+/// What is cut off at the breakthrough is what the whole avalanche did up to there.
+TEST(Drainage, UntilOutletIsTheBeginningOfTheWholeAvalanche)
+{
+	int nCut = 0;
+	for (unsigned seed = 1; seed <= 300; ++seed)
+		for (bool trapping : { false, true }) {
+			Random     random(seed);
+			const auto network = seed <= 290 ? randomNetwork(random) : packingNetwork(random, 60);
+			auto       whole   = pairs(drain(network, 1e9, trapping).steps);
+			const auto outlet  = std::find_if(whole.begin(), whole.end(), [&](auto step) { return network.outlet[step.second]; });
+			nCut += outlet != whole.end() && outlet + 1 != whole.end();
+			if (outlet != whole.end()) whole.erase(outlet + 1, whole.end());
+			const auto found = drain(network, 1e9, trapping, std::numeric_limits<int>::max(), true);
+			EXPECT_EQ(pairs(found.steps), whole) << "seed " << seed;
+			// The water that is trapped then is what stopping after so many steps finds, too.
+			if (!whole.empty()) { EXPECT_EQ(found.trapped, drain(network, 1e9, trapping, static_cast<int>(whole.size())).trapped); }
+		}
+	EXPECT_GT(nCut, 300) << "the networks test nothing";
+}
+
 TEST(Drainage, NextEntryPressureIsWhereTheNextStepComes)
 {
 	for (unsigned seed = 1; seed <= 200; ++seed) {

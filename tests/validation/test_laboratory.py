@@ -89,3 +89,17 @@ def test_waterAtTheDryTimeStepForALongTime():
         assert one["stepsDone"] < 100 if staggered else one["energy"] < 1.05
     for one in found["stir"].values():
         assert one["flipsTotal"] > 1000 and one["ledger"] < 1e-10 and abs(one["massDefect"]) < 1e-10
+
+
+def test_fractalDimensionOfTheGas():
+    found = results("percolation", "percolation", {"percolation": {"sizes": [64, 128, 256, 512, 1024], "samples": 60, "delaunaySizes": [64, 128, 256, 512], "delaunaySamples": 20,
+                                                                   "radiusSize": 1024, "radiusSamples": 60}})
+    for kind, one in found["square"].items():
+        # The project's aim is 0.03; standard errors are 0.007.
+        assert one["dimension"] == pytest.approx(found["literature"][kind], abs=0.03)
+    for kind, one in found["delaunay"].items():
+        # Fewer of them: 0.03 and two standard errors.
+        assert one["dimension"] == pytest.approx(found["literature"][kind], abs=0.03 + 2 * one["dimensionError"])
+    for network in ("square", "delaunay"):
+        free, trapping = found[network]["free"], found[network]["trapping"]
+        assert free["dimension"] - trapping["dimension"] > 0.03 and trapping["saturation"] == sorted(trapping["saturation"], reverse=True)

@@ -6,7 +6,7 @@ and returns the results (a dict of numbers, texts, lists, dicts).
 
 from capfrac import snapshot
 from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, contacts, figures, hydrate_ridge, settling, tables
+from capfrac.lab import biaxial, compaction, contacts, figures, hydrate_ridge, percolation, percolation_figures, settling, tables
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 
 
@@ -111,6 +111,14 @@ def _contacts(sample, own, run, base):
     return {name: _withoutTable(one) for name, one in found.items()}
 
 
+def _percolation(sample, own, run, base):
+    found = percolation.percolation(**own, seed=sample.seed, rMin=sample.rMin, rMax=sample.rMax, run=run)
+    run.table("percolation", percolation.table(found))
+    run.table("radius", {"radius [pores]": found["radius"]["free"]["radius"], **{f"{kind} mass [pores]": found["radius"][kind]["mass"] for kind in percolation.DIMENSIONS}})
+    run.picture("percolation", lambda path: percolation_figures.drawPercolation(found, path))
+    return found
+
+
 #: The function of each test.
 REPORTS = {"settle": _settle, "timestep": _timestep, "compact": _compact, "fit": _fit, "hydrate-ridge": _hydrateRidge, "path": _path, "biaxial": _biaxial,
-           "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts}
+           "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "percolation": _percolation}

@@ -1,0 +1,107 @@
+/// Pressures of GasInvasionEngine, place by place: columns of gas and of water at rest.
+
+#include "GasInvasionEngine.hpp"
+#include "Walls.hpp"
+
+#include "../geometry/FluidWeight.hpp"
+#include "../invasion/TrappedWater.hpp"
+
+namespace yade {
+
+bool GasInvasionEngine::heavy() const { return (fluidDensity > 0 || gasDensity > 0) && (gravity[0] != 0 || gravity[1] != 0); }
+
+capfrac::Vec2 GasInvasionEngine::datum() const
+{
+	if (!inletPoints.empty()) {
+		Vector2r sum = Vector2r::Zero();
+		for (const auto& p : inletPoints)
+			sum += p;
+		return { sum[0] / inletPoints.size(), sum[1] / inletPoints.size() };
+	}
+	const Real middle = 0.5 * (inletFrom + inletTo);
+	return reader.box.foot(wallFromName("inletWall", inletWall), { middle, middle });
+}
+
+/// What the capillary pressure at a place exceeds that at the datum by [Pa].
+Real GasInvasionEngine::head(capfrac::Vec2 place) const
+{
+	if (!heavy()) return 0;
+	const auto from = datum();
+	return (gasDensity - fluidDensity) * (gravity[0] * (place.x - from.x) + gravity[1] * (place.y - from.y));
+}
+
+/// The middle of a gap; at a wall, the foot: the middle between the grain and its image.
+capfrac::Vec2 GasInvasionEngine::throatPlace(int e) const
+{
+	const auto& edge = mesh.edges[e];
+	const auto& a    = reader.grains[edge.a];
+	if (mesh.isWall(edge.b)) return reader.box.foot(mesh.wallOf(edge.b), a.centre);
+	const auto& b = reader.grains[edge.b];
+	return a.centre + (a.radius + 0.5 * gaps[e]) / capfrac::norm(b.centre - a.centre) * (b.centre - a.centre);
+}
+
+/// The capillary pressure at the datum at which gas enters a throat [Pa].
+Real GasInvasionEngine::entryPressureAtDatum(int e) const
+{
+	const Real entry = throatEntryPressure(e);
+	return heavy() ? entry - head(throatPlace(e)) : entry;
+}
+
+/// Per cell the pressure that its fluid has, or would have, at the datum [Pa].
+std::vector<double> GasInvasionEngine::pressuresAtDatum() const
+{
+	std::vector<double> pressure(mesh.cells.size());
+	for (std::size_t c = 0; c < pressure.size(); ++c)
+		pressure[c] = contents.phase[c] == capfrac::Phase::gas ? pressureOfGas(static_cast<int>(c)) : waterPressure;
+	if (!trapping || filmConductance <= 0) return pressure;
+	const auto network = drainageNetwork();
+	for (const auto& cluster : capfrac::trappedClusters(network)) {
+		if (cluster.throat < 0) continue;
+		const Real held = math::max(waterPressure, gasPressure - network.throats[cluster.throat].entryPressure);
+		for (int d : cluster.domains)
+			for (int c : domains.cellsOf(d))
+				pressure[c] = held;
+	}
+	return pressure;
+}
+
+capfrac::Vec2 GasInvasionEngine::weightOf(int cell) const
+{
+	const Real density = contents.phase[cell] == capfrac::Phase::gas ? gasDensity : fluidDensity;
+	return { density * gravity[0], density * gravity[1] };
+}
+
+std::vector<double> GasInvasionEngine::cellPressures() const
+{
+	if (!drained()) return SinglePhaseFlowEngine::cellPressures();
+	auto pressure = pressuresAtDatum();
+	if (!heavy()) return pressure;
+	const capfrac::Vec2 toDatum = datum() - capfrac::Vec2 { reader.box.left, reader.box.bottom };
+	for (std::size_t c = 0; c < pressure.size(); ++c) {
+		const int           cell    = static_cast<int>(c);
+		const auto          moments = capfrac::voidMoments(mesh, cell, reader.grains, reader.box);
+		const capfrac::Vec2 place   = moments.area > 0 ? (1 / moments.area) * moments.first
+		                                               : capfrac::cellCentre(mesh, cell, reader.grains, reader.box) - capfrac::Vec2 { reader.box.left, reader.box.bottom };
+		pressure[c] += capfrac::dot(weightOf(cell), place - toDatum);
+	}
+	return pressure;
+}
+
+/// A fluid at rest has the pressure p + w.(x - datum) = (p - w.datum) + w.x: the forces of a pressure per cell, and those of the weights (geometry/FluidWeight).
+capfrac::FluidForces GasInvasionEngine::forcesOfFluids() const
+{
+	if (!drained()) return SinglePhaseFlowEngine::forcesOfFluids();
+	if (!heavy()) return PoreNetworkEngine::forcesOfFluids();
+	auto                       pressure = pressuresAtDatum();
+	std::vector<capfrac::Vec2> weight(pressure.size());
+	const capfrac::Vec2        toDatum = datum() - capfrac::Vec2 { reader.box.left, reader.box.bottom };
+	for (std::size_t c = 0; c < pressure.size(); ++c) {
+		weight[c] = weightOf(static_cast<int>(c));
+		pressure[c] -= capfrac::dot(weight[c], toDatum);
+	}
+	auto forces = capfrac::fluidForces(mesh, pressure, reader.grains, reader.box);
+	forces += capfrac::weightForces(mesh, reader.grains, reader.box, weight);
+	return forces;
+}
+
+} // namespace yade
