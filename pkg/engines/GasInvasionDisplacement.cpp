@@ -12,10 +12,12 @@ namespace {
 
 	/// Conductance from the reservoir to a pore of the inlet over that of the widest throat [-]: no obstacle, and well conditioned.
 	constexpr Real inletConductance = 100;
-	/// Least volume of the reservoir, in mean pores [-]: so that its pressure has a meaning.
+	/// Least volume of the reservoir, in mean cells [-].
 	constexpr Real leastReservoir = 1e-3;
 	/// Share of a pore that gas gains within a level's least duration and still counts as at rest [-].
 	constexpr Real restingGain = 0.01;
+	/// Negative amounts up to this share of a pore are round-off and go to the books [-].
+	constexpr Real roundOff = 1e-9;
 
 } // namespace
 
@@ -75,19 +77,25 @@ capfrac::TwoFluids GasInvasionEngine::twoFluids() const
 	return fluids;
 }
 
+/// Its least size gives the pressure of the reservoir a meaning.
+Real GasInvasionEngine::reservoirSize() const { return math::max(reservoirVolume, leastReservoir * initialVoid / mesh.cells.size()); }
+
 /// The inlet was filled by volume: its gas has the pressure of the reservoir.
 void GasInvasionEngine::startDisplacement()
 {
-	checkDisplacementTogether();
 	const auto fluids = twoFluids();
 	const Real ratio  = capfrac::gasRatio(fluids, gasPressure);
 	waterIn = 0, gasIn = 0, initialWater = thickness * contents.totalWater();
 	const auto voidsNow = currentVoids();
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		if (contents.phase[c] != capfrac::Phase::gas) continue;
-		contents.gas[c] = voidsNow[c] * ratio;
+		contents.gas[c]     = voidsNow[c] * ratio;
+		contents.gasMass[c] = densityAt(0) * contents.gas[c];
 		gasIn += thickness * contents.gas[c];
 	}
+	reservoirFilled = reservoirVolume, reservoirMass = densityAt(gasPressure) * reservoirSize();
+	initialGasMass = injectedGasMass = gasMassIn();
+	massStarted                      = true;
 	cellState.assign(mesh.cells.size(), waterPressure);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
 		if (contents.phase[c] == capfrac::Phase::gas) cellState[c] = gasPressure;
@@ -141,6 +149,9 @@ capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
 	for (int p = 0; p < nPores; ++p) {
 		auto& pore    = network.pores[p];
 		pore.volume   = poreVolume[p];
+		// Cells of a torn sample may have a negative void, and share of what is there: sums that cancel leave round-off.
+		for (auto [amount, books] : { std::pair(&pore.gas, &gasIn), std::pair(&pore.water, &waterIn) })
+			if (*amount < 0 && *amount > -roundOff * pore.volume) *books -= std::exchange(*amount, 0);
 		pore.pressure /= poreVolume[p];
 		pore.bodyPressure = bodies[p];
 		pore.held     = pore.isGas || !(pore.gas > 0) ? 0 : pore.held / pore.gas;
@@ -162,16 +173,14 @@ capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
 
 void GasInvasionEngine::addReservoir(capfrac::TwoFluidNetwork& network) const
 {
-	Real widest = 0, volume = 0;
+	Real widest = 0;
 	for (const auto& throat : network.throats)
 		widest = math::max(widest, throat.conductance);
-	for (Real v : poreVolume)
-		volume += v / nPores;
 	capfrac::TwoFluidPore reservoir;
 	reservoir.isGas    = true;
-	reservoir.volume   = math::max(reservoirVolume, leastReservoir * volume);
+	reservoir.volume   = reservoirSize();
 	reservoir.pressure = gasPressure;
-	reservoir.gas      = massStarted ? reservoirMass / densityAt(0) : reservoir.volume * capfrac::gasRatio(network.fluids, gasPressure);
+	reservoir.gas      = reservoirMass / densityAt(0);
 	if (control == GasControl::pressure) reservoir.fixedPressure = gasPressure;
 	else if (control == GasControl::rate)
 		reservoir.source = gasRate / densityAt(0);
@@ -187,6 +196,9 @@ void GasInvasionEngine::addReservoir(capfrac::TwoFluidNetwork& network) const
 void GasInvasionEngine::displaceWater()
 {
 	checkDisplacementTogether();
+	if (cellState.size() != mesh.cells.size())
+		capfrac::refuseAttribute("waterFlow", "'" + waterFlow + "'", "'drained' once the gas is in drained water: what the pores hold is not known by mass");
+	if (reservoirVolume != reservoirFilled) attachReservoir();
 	describePores();
 	joinPhases();
 	auto                       network = twoFluidNetwork();
@@ -205,23 +217,14 @@ void GasInvasionEngine::displaceWater()
 	}
 	waterIn += done.water.in - done.water.out;
 	gasIn += done.gas.in - done.gas.out - (network.pores.back().gas - before);
-	bookMass(before, network.pores.back().gas, done.gas);
+	reservoirMass = densityAt(0) * network.pores.back().gas; // and the books of GasInvasionSupply.cpp
+	injectedGasMass += densityAt(0) * (done.gas.in - done.gas.out);
 	gasPressure = network.pores.back().pressure;
 	massDefect += done.water.defect() + done.gas.defect();
 	nFactorizations += done.factored;
 	solverIterations = done.iterations;
 	recordEntries(network, done);
 	writeBack(network, done);
-}
-
-/// The books by mass of GasInvasionSupply.cpp.
-void GasInvasionEngine::bookMass(Real before, Real after, const capfrac::FlowLedger& gas)
-{
-	const Real density = densityAt(0);
-	if (!massStarted) initialGasMass = injectedGasMass = density * (thickness * contents.totalGas() + before);
-	massStarted   = true;
-	reservoirMass = density * after, reservoirFilled = reservoirVolume;
-	injectedGasMass += density * (gas.in - gas.out);
 }
 
 void GasInvasionEngine::recordEntries(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done)

@@ -85,7 +85,7 @@ void GasInvasionEngine::startFluids()
 	if (gasPressure < waterPressure) capfrac::refuseAttribute("gasPressure [Pa]", gasPressure, ">= waterPressure");
 	if (!drained()) SinglePhaseFlowEngine::startFluids();
 	try {
-		checkSupplyTogether();
+		drained() ? checkSupplyTogether() : checkDisplacementTogether();
 		checkInlet();
 		const auto inlet = inletDomains();
 		if (inlet.empty())
@@ -120,6 +120,7 @@ void GasInvasionEngine::startFluids()
 	gasSaturation = saturation();
 	levelStart    = -1;
 	noteBreakthrough(); // an inlet may reach the outlet from the start
+	if (!drained()) return;
 	settleGas(0);
 	warnOfSupply();
 }

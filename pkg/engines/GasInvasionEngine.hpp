@@ -96,7 +96,7 @@ private:
 	void                     checkWaterFlow() const;
 	void                     checkDisplacementTogether() const;
 	void                     startDisplacement();
-	void                     bookMass(Real before, Real after, const capfrac::FlowLedger& gas);
+	Real                     reservoirSize() const;
 	void                     joinPhases();
 	capfrac::TwoFluidNetwork twoFluidNetwork();
 	void                     addReservoir(capfrac::TwoFluidNetwork& network) const;
