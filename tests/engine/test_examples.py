@@ -173,7 +173,7 @@ def test_buoyancy():
 
 def test_percolation(tmp_path):
     sizes = [16, 32, 64]
-    found = example("21_percolation").main(str(tmp_path / "run"), sizes=sizes, delaunaySizes=sizes, samples=20, delaunaySamples=20, radiusSize=128, radiusSamples=10)
+    found = example("21_percolation").main(str(tmp_path / "run"), sizes=sizes, delaunaySizes=sizes, samples=20, delaunaySamples=20, radiusSize=512, radiusSamples=5)
     for network in ("square", "delaunay"):
         for kind, one in found[network].items():
             # Four standard errors, and 0.03 for the smallest networks: tests/verification and the manual have larger ones.

@@ -90,7 +90,7 @@ TESTS = {
         Key("percolation", "delaunaySizes", list, "pores", (32, 64, 128), "Widths of the triangulations of random points, three at least, or none."),
         Key("percolation", "samples", int, "-", 50, "Lattices of the largest width; more of the smaller ones in inverse proportion.", low=2),
         Key("percolation", "delaunaySamples", int, "-", 30, "Triangulations of the largest width; more of the smaller ones in inverse proportion.", low=2),
-        Key("percolation", "radiusSize", int, "pores", 512, "Width and height of the lattices that show the mass within a radius.", low=128),
+        Key("percolation", "radiusSize", int, "pores", 1024, "Width and height of the lattices that show the mass within a radius, up to a 32nd of it.", low=512),
         Key("percolation", "radiusSamples", int, "-", 20, "Number of these.", low=2)),
     "diffusion": _own("diffusion", positive("", "stress", "Pa", 100e3, "Isotropic stress of the preparation."), positive("", "pressure", "Pa", 1e3, "Pressure set along the top."),
                       positive("", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f."), positive("", "viscosity", "Pa s", 1e-3, "Viscosity of the fluid."),

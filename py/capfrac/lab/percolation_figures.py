@@ -30,7 +30,7 @@ def drawPercolation(found, path, seed=1):
         figure.legend(handles=[Patch(color=COLOURS["dot"], label="gas"), Patch(facecolor="white", edgecolor="0.6", linewidth=0.6, label="water"),
                                Patch(color=_TRAPPED, label="trapped water"), Line2D([], [], color=COLOURS["inlet"], linewidth=3, label="inlet")],
                       ncol=4, loc="center", bbox_to_anchor=(0.53, 0.513), fontsize=8, frameon=False, handlelength=1.4)
-        mass, saturation = figure.add_axes([0.085, 0.155, 0.395, 0.305]), figure.add_axes([0.6, 0.155, 0.395, 0.305])
+        mass, saturation = figure.add_axes([0.085, 0.155, 0.395, 0.305]), figure.add_axes([0.595, 0.155, 0.385, 0.305])
         _drawScaling(mass, found, "mass", "gas-filled pores in $L \\times L$, $M$", "c)  $M \\sim L^D$")
         _drawScaling(saturation, found, "saturation", "gas saturation at breakthrough, $S$", "d)  $S \\sim L^{D-2}$")
         figure.legend(handles=_handles(found), ncol=2, loc="lower center", bbox_to_anchor=(0.53, 0.0), fontsize=8, frameon=False, handlelength=2.6,
