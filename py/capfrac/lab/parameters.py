@@ -92,6 +92,8 @@ TESTS = {
         Key("percolation", "delaunaySamples", int, "-", 30, "Triangulations of the largest width; more of the smaller ones in inverse proportion.", low=2),
         Key("percolation", "radiusSize", int, "pores", 1024, "Width and height of the lattices that show the mass within a radius, up to a 32nd of it.", low=512),
         Key("percolation", "radiusSamples", int, "-", 20, "Number of these.", low=2)),
+    "displacement": _own("displacement", positive("", "stress", "Pa", 10e3, "Isotropic stress of the preparation."), positive("", "tension", "N/m", 0.05, "Interfacial tension gamma."),
+                         positive("", "viscosity", "Pa s", 1e-3, "Viscosity of the water."), Key("", "steps", int, "-", 300, "Steps in which the volume of the pores is supplied.", low=20)),
     "diffusion": _own("diffusion", positive("", "stress", "Pa", 100e3, "Isotropic stress of the preparation."), positive("", "pressure", "Pa", 1e3, "Pressure set along the top."),
                       positive("", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f."), positive("", "viscosity", "Pa s", 1e-3, "Viscosity of the fluid."),
                       positive("", "conductanceFactor", "-", 1.0, "Factor of all conductances; 0.32 reproduces the paper's permeability, a fit."),

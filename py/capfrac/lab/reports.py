@@ -6,7 +6,7 @@ and returns the results (a dict of numbers, texts, lists, dicts).
 
 from capfrac import snapshot
 from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, contacts, figures, hydrate_ridge, percolation, percolation_figures, settling, tables
+from capfrac.lab import biaxial, compaction, contacts, displacement, displacement_figures, figures, hydrate_ridge, percolation, percolation_figures, settling, tables
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 
 
@@ -119,6 +119,17 @@ def _percolation(sample, own, run, base):
     return found
 
 
+def _displacement(sample, own, run, base):
+    found = displacement.displacement(sample, run=run, **own)
+    columns = {"capillaryNumber [-]": "capillaryNumber", "viscosityRatio [-]": "viscosityRatio", "saturation [-]": "saturation", "roughness [-]": "roughness",
+               "filledBehind [-]": "filledBehind", "pressure [Pa]": "pressure", "entries": "entries", "ledger [-]": "ledger"}
+    run.table("displacement", {"corner": list(found), **{column: [one[name] for one in found.values()] for column, name in columns.items()}})
+    if run.folder is not None:
+        shots = {name: snapshot.load(run.folder.path / "snapshots" / f"{name.replace(' ', '-')}.npz") for name in found}
+        run.picture("displacement", lambda path: displacement_figures.drawDisplacement(found, shots, path))
+    return found
+
+
 #: The function of each test.
 REPORTS = {"settle": _settle, "timestep": _timestep, "compact": _compact, "fit": _fit, "hydrate-ridge": _hydrateRidge, "path": _path, "biaxial": _biaxial,
-           "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "percolation": _percolation}
+           "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "percolation": _percolation, "displacement": _displacement}
