@@ -56,7 +56,7 @@ def main(grainCount=300, cases=CASES):
             print(rows[-1], flush=True)
             tables.setdefault((snapOff, degrees), []).append(table)
             if seed == 1 and degrees == 0:
-                maps.append(("with snap-off, after imbibition" if snapOff else "without snap-off", one))
+                maps.append(("seed 1 after imbibition, with snap-off" if snapOff else "the same without snap-off", one))
             with open(folder / "data" / "cycle.csv", "w", newline="") as file:
                 writer = csv.DictWriter(file, rows[0].keys())
                 writer.writeheader()

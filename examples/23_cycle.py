@@ -4,7 +4,8 @@
 
 The coarse sample of Figure 15. Gas is driven in until it fills nearly all pores, the pressure is taken back to nothing, and raised again. Water comes back into
 a pore at a lower capillary pressure than the gas needed to enter it (its body is wider than its throats), films snap throats off, and what gas loses the inlet stays.
-Expect (300 grains): a loop, a tenth to a half of the voids with trapped gas, and a second drainage that meets it and breaks through no later than the first.
+Expect (300 grains, about a minute): a loop, half to two thirds of the voids with trapped gas (the model is plane), and a second drainage that meets it and
+breaks through some 10 Pa earlier than the first.
 """
 
 import sys

@@ -87,7 +87,8 @@ std::vector<double> GasInvasionEngine::cellPressures() const
 	return pressure;
 }
 
-/// A fluid at rest has the pressure p + w.(x - datum) = (p - w.datum) + w.x: the forces of a pressure per cell, and those of the weights (geometry/FluidWeight).
+/// A fluid at rest has the pressure p + w.(x - datum) = (p - w.datum) + w.x: the forces of a pressure per cell, and those of the weights
+/// (geometry/FluidWeight).
 capfrac::FluidForces GasInvasionEngine::forcesOfFluids() const
 {
 	if (!drained()) return SinglePhaseFlowEngine::forcesOfFluids();

@@ -31,7 +31,8 @@ namespace {
 		return true;
 	}
 
-	/// The place on a wall between two grains that is as far from the one as from the other, by bisection: the difference of the two distances grows all the way
+	/// The place on a wall between two grains that is as far from the one as from the other, by bisection: the difference of the two distances grows all
+	/// the way
 	/// from the foot of `a` to that of `b`. NaN where it has no root between them.
 	PoreBody circleOnWall(const Disk& a, const Disk& b, Vec2 footA, Vec2 footB)
 	{
@@ -99,7 +100,8 @@ double refillPressure(double radius, double tension, double contactAngle)
 double snapOffPressure(double radius, double tension, double contactAngle)
 {
 	checkBody(radius, tension, contactAngle);
-	if (!(contactAngle + snapOffCorner < M_PI / 2)) refuse("contact angle [rad]", contactAngle, "< pi/4 with snap-off (films in corners of 45 degrees swell below that only)");
+	if (!(contactAngle + snapOffCorner < M_PI / 2))
+		refuse("contact angle [rad]", contactAngle, "< pi/4 with snap-off (films in corners of 45 degrees swell below that only)");
 	return tension / radius * (std::cos(contactAngle) - std::sin(contactAngle) * std::tan(snapOffCorner));
 }
 

@@ -20,8 +20,10 @@ struct PoreBody {
 	Vec2   centre;     ///< [m]
 };
 
-/// The circle that touches three disks from outside (Apollonius): with centres x_i and radii r_i, |c - x_i| = s + r_i. Less the first, these are linear in c and s,
-/// c = u - s v; the first is then a quadratic in s, (|v|^2 - 1) s^2 - 2 (u.v + r_0) s + |u|^2 - r_0^2 = 0. `radius` is s [m] (negative where the disks leave no room
+/// The circle that touches three disks from outside (Apollonius): with centres x_i and radii r_i, |c - x_i| = s + r_i. Less the first, these are linear in c
+/// and s,
+/// c = u - s v; the first is then a quadratic in s, (|v|^2 - 1) s^2 - 2 (u.v + r_0) s + |u|^2 - r_0^2 = 0. `radius` is s [m] (negative where the disks leave
+/// no room
 /// between them), NaN where there is no such circle.
 PoreBody touchingCircle(const Disk& a, const Disk& b, const Disk& c);
 
@@ -29,16 +31,19 @@ PoreBody touchingCircle(const Disk& a, const Disk& b, const Disk& c);
 /// r ( sqrt(1 + (1 + s/r)^2) - 1 ); inscribedRadius() of the gap 2s. 0.5275 r between three equal disks in contact, 0.7321 r between four on a square.
 double bodyRadius(double s, double r);
 
-/// The widest place of a cell. At a wall the grains meet their mirror images: the circle of a cell of two grains has its centre on the wall, that of one grain in a
+/// The widest place of a cell. At a wall the grains meet their mirror images: the circle of a cell of two grains has its centre on the wall, that of one grain
+/// in a
 /// corner has it in the corner. A circle whose centre lies outside of the cell (an obtuse triangle's) is not of this cell, which is then nowhere wider than
 /// at its sides: radius 0.
 PoreBody poreBody(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
 
-/// Capillary pressure below which water refills a pore body [Pa]: 2 gamma cos(theta)/radius. `tension` gamma [N/m] > 0, `contactAngle` theta [rad] in [0, pi/2),
+/// Capillary pressure below which water refills a pore body [Pa]: 2 gamma cos(theta)/radius. `tension` gamma [N/m] > 0, `contactAngle` theta [rad] in [0,
+/// pi/2),
 /// `radius` [m] > 0. Throws EntryLawError outside of these.
 double refillPressure(double radius, double tension, double contactAngle);
 
-/// Half of the angle of the corners that hold the water in a throat when it snaps off [rad]: 45 degrees. The films' menisci meet where the grains are nearest to the throat's axis,
+/// Half of the angle of the corners that hold the water in a throat when it snaps off [rad]: 45 degrees. The films' menisci meet where the grains are nearest
+/// to the throat's axis,
 /// on its inscribed circle. There the four grains' tangents enclose a square (at contact; a rhombus of 90 degrees on the average otherwise).
 constexpr double snapOffCorner = 0.25 * 3.14159265358979323846;
 
@@ -46,7 +51,8 @@ constexpr double snapOffCorner = 0.25 * 3.14159265358979323846;
 ///
 ///     P_c = gamma/r_in (cos(theta) - sin(theta) tan(beta)),    beta = snapOffCorner
 ///
-/// half of the entry pressure at theta = 0. `radius` r_in [m] > 0 is the throat's inscribed radius. Valid for theta + beta < 90 degrees: beyond, films do not swell.
+/// half of the entry pressure at theta = 0. `radius` r_in [m] > 0 is the throat's inscribed radius. Valid for theta + beta < 90 degrees: beyond, films do not
+/// swell.
 /// Throws EntryLawError outside.
 double snapOffPressure(double radius, double tension, double contactAngle);
 

@@ -19,8 +19,10 @@ namespace capfrac {
 /// corner being the lower left one of the box. They add up to the fluid's weight. Where disks overlap or reach beyond a wall the fluid does not press.
 FluidForces weightForces(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box, Vec2 weight);
 
-/// The same for a weight per cell [N/m^3]: the gradient of the sum of w_c M_c, M_c the first moment of the void of cell c about the lower left corner of the box (held fixed). Two
-/// fluids at rest: pressures (p - w x_p) of fluidForces() and these make up both fluids' forces. The sum over grains and walls is the weight of both. Exact but for the half of a lens (of grains
+/// The same for a weight per cell [N/m^3]: the gradient of the sum of w_c M_c, M_c the first moment of the void of cell c about the lower left corner of the
+/// box (held fixed). Two
+/// fluids at rest: pressures (p - w x_p) of fluidForces() and these make up both fluids' forces. The sum over grains and walls is the weight of both. Exact
+/// but for the half of a lens (of grains
 /// that overlap) that turns between two weights, some 1e-4 r^2 times their difference in a stiff pack: there the mean weight counts.
 FluidForces weightForces(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box, const std::vector<Vec2>& weightOfCell);
 

@@ -52,7 +52,8 @@ std::vector<std::uint8_t> connectedWater(const DrainageNetwork& network);
 ///
 /// Gas that did not hang on the inlet and is met on the way advances from then on. With `trapping` it waits
 /// for the next call, and water that is cut off from every outlet stays: neither the domains that were cut
-/// off before nor those cut off on the way are entered. A throat that is snapped off between gas and gas is entered like one before water; what is behind it is met then.
+/// off before nor those cut off on the way are entered. A throat that is snapped off between gas and gas is
+/// entered like one before water; what is behind it is met then.
 /// With `untilOutlet` the avalanche ends with the first domain entered that is an outlet (breakthrough); the steps up to there are those
 /// of the whole avalanche.
 ///

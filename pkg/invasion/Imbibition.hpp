@@ -3,7 +3,8 @@
 /// Quasi-static imbibition: which pores does water refill when the capillary pressure falls, which throats does it snap off, and which gas is left behind?
 ///
 /// The event with the highest threshold comes first, as on a path of slowly falling pressure: a throat in gas snaps off below its snap-off pressure, a domain
-/// of gas that touches water is refilled below its refill pressure. Its gas has to go somewhere: only gas that hangs on an exit (the inlet) through throats that are not snapped off
+/// of gas that touches water is refilled below its refill pressure. Its gas has to go somewhere: only gas that hangs on an exit (the inlet) through throats
+/// that are not snapped off
 /// recedes. What loses its exit is trapped: it keeps its gas and its pressure, and nothing happens in it any more.
 
 #include "Drainage.hpp"
@@ -31,7 +32,8 @@ struct Imbibition {
 
 /// The cascade below `capillaryPressure` [Pa], or its first `maxSteps` steps (> 0).
 ///
-/// Water comes from where the sample ends (`outlet`: a domain of gas there touches the reservoir) and from every domain of water that hangs together with it. With `films`
+/// Water comes from where the sample ends (`outlet`: a domain of gas there touches the reservoir) and from every domain of water that hangs together with it.
+/// With `films`
 /// water films on the grains feed all other water, and throats that are snapped off, as well. Events at equal thresholds are ordered by place; an event needs
 /// a capillary pressure strictly below its threshold, so that drainage (at or above) and imbibition never undo each other at one pressure.
 ///

@@ -25,7 +25,9 @@ std::vector<TrappedCluster> trappedClusters(const DrainageNetwork& network)
 		return std::make_tuple(throat.entryPressure, throat.position.x, throat.position.y);
 	};
 	for (int t = 0; t < static_cast<int>(network.throats.size()); ++t)
-		for (auto [from, to] : { std::make_pair(network.throats[t].left, network.throats[t].right), std::make_pair(network.throats[t].right, network.throats[t].left) }) {
+		for (bool forward : { true, false }) {
+			const Throat& throat = network.throats[t];
+			const int     from = forward ? throat.left : throat.right, to = forward ? throat.right : throat.left;
 			if (!network.gas[from] || !network.injected[from] || !trapped(to)) continue;
 			auto& cluster = clusters[sets.find(to)];
 			if (cluster.throat < 0 || rank(t) < rank(cluster.throat)) cluster.throat = t, cluster.behind = to;

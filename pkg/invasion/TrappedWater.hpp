@@ -2,7 +2,8 @@
 
 /// Water that is cut off from every outlet, cluster by cluster, and how it leaves through films on the grains.
 ///
-/// Gas presses on a cluster until its widest throat to gas holds no more: the water there has the pressure p_g - P_e, P_e the lowest entry pressure on its border. Above the
+/// Gas presses on a cluster until its widest throat to gas holds no more: the water there has the pressure p_g - P_e, P_e the lowest entry pressure on its
+/// border. Above the
 /// water's own pressure p_w outside it is pressed out along the films,
 ///
 ///     q = K (p_g - P_e - p_w) = K (P_c - P_e),

@@ -37,7 +37,8 @@ Contents waterFilled(const std::vector<double>& voidArea);
 
 /// Lets the contents follow the void areas of cells that only changed their shape: the phase of a cell
 /// flows in or out through its reservoir (drained water, gas at a prescribed pressure) until the cell is
-/// full again. A held cell keeps its gas: there the water of the films gives and takes (and is negative where it gave more than there was). Returns the gas [0] and the water [1] that entered [m^2].
+/// full again. A held cell keeps its gas: there the water of the films gives and takes (and is negative
+/// where it gave more than there was). Returns the gas [0] and the water [1] that entered [m^2].
 std::array<double, 2> followVoids(Contents& contents, const std::vector<double>& voidArea);
 
 /// Carries contents from one triangulation to another of the same grains at the same positions.

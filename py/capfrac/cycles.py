@@ -21,10 +21,11 @@ _COLOURS = {"drainage": "#1f5fa8", "imbibition": "#c7641b", "second drainage": "
 def pressureCycle(gas, stages, increment, progress=None):
     """Take the gas pressure through ``stages`` and return what there is at the end of each level: a dict of lists.
 
-    ``gas``: a prepared ``GasInvasionEngine``. ``stages``: pairs (name, P_c in Pa at its end); the pressure goes there from where it is in steps
-    of ``increment`` [Pa] > 0, up or down, or of a third entry of the stage. Stages that follow each other may have one name. Columns: ``stage``, ``capillaryPressure`` [Pa], ``gasSaturation`` [-], ``trappedGas`` (the part
-    of it that is cut off from the inlet) [-], ``atOutlet`` (gas that hangs on the inlet touches the outlet), ``iteration``. The engine's own ramp
-    is switched off. ``progress(stage, P_c, saturation)`` is called after each level. Raises :class:`CaseError` for impossible values.
+    ``gas``: a prepared ``GasInvasionEngine``. ``stages``: pairs (name, P_c in Pa at its end); the pressure goes there from where it
+    is in steps of ``increment`` [Pa] > 0, up or down, or of a third entry of the stage. Stages that follow each other may have one
+    name. Columns: ``stage``, ``capillaryPressure`` [Pa], ``gasSaturation`` [-], ``trappedGas`` (the part of it that is cut off from the
+    inlet) [-], ``atOutlet`` (gas that hangs on the inlet touches the outlet), ``iteration``. The engine's own ramp is switched off.
+    ``progress(stage, P_c, saturation)`` is called after each level. Raises :class:`CaseError` for impossible values.
     """
     stages = [(str(stage[0]), float(stage[1]), float(stage[2] if len(stage) > 2 else increment)) for stage in stages]
     for _, end, step in stages:
@@ -75,10 +76,10 @@ def _state(gas):
 def measure(table, first="drainage", back="imbibition", second="second drainage"):
     """What a cycle says: a dict.
 
-    ``advance``: for either drainage the lowest P_c [Pa] at which gas that hangs on the inlet has grown by a thousandth of the void over what it was when
-    the drainage began; ``breakthrough``: the lowest P_c at which it touches the outlet; both None where it did not come to that. ``residual``: S_g at the end of the
-    imbibition; ``trapped``: the part of it that is cut off. ``area``: the area of the loop between ``first`` and ``back`` in the P_c-S_g plane [Pa], the work per
-    void volume that is lost.
+    ``advance``: for either drainage the lowest P_c [Pa] at which gas that hangs on the inlet has grown by a thousandth of the void
+    over what it was when the drainage began; ``breakthrough``: the lowest P_c at which it touches the outlet; both None where it did
+    not come to that. ``residual``: S_g at the end of the imbibition; ``trapped``: the part of it that is cut off. ``area``: the integral
+    of P_c dS_g over ``first`` and ``back`` [Pa], the work per void volume that is not had back.
     """
     stage, pressure = np.array(table["stage"]), np.array(table["capillaryPressure"])
     saturation, trapped, atOutlet = np.array(table["gasSaturation"]), np.array(table["trappedGas"]), np.array(table["atOutlet"])
@@ -97,8 +98,9 @@ def measure(table, first="drainage", back="imbibition", second="second drainage"
 
     end = np.flatnonzero(stage == back)[-1]
     loop = np.isin(stage, (first, back)) & (np.arange(len(stage)) <= end)
+    p, s = pressure[loop], saturation[loop]
     return {first: drainage(first), second: drainage(second), "residual": float(saturation[end]), "trapped": float(trapped[end]),
-            "maximum": float(saturation[stage == first].max()), "area": float(np.trapezoid(pressure[loop], saturation[loop]) if hasattr(np, "trapezoid") else np.trapz(pressure[loop], saturation[loop]))}
+            "maximum": float(saturation[stage == first].max()), "area": float(np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(s)))}
 
 
 def cellMap(gas):
@@ -111,9 +113,10 @@ def cellMap(gas):
 
 def drawCycle(tables, path, maps=()):
     """Draw the loops of several samples (the first one strong), and maps of where the gas is: (title, :func:`cellMap`) pairs, to ``path``."""
-    width = 5.2 + 3.3 * len(maps)
+    width = 4.6 + 3.0 * len(maps)
     with figures.newFigure((width, 4.4)) as figure:
-        columns = figure.add_gridspec(1, 1 + len(maps), width_ratios=[1.35] + [1] * len(maps), left=0.62 / width, right=0.99, bottom=0.24, top=0.92, wspace=0.08 if maps else None)
+        columns = figure.add_gridspec(
+            1, 1 + len(maps), width_ratios=[1.4] + [1] * len(maps), left=0.6 / width, right=0.995, bottom=0.24, top=0.92, wspace=0.06 if maps else None)
         _drawLoops(figure.add_subplot(columns[0]), tables)
         for column, (title, one) in enumerate(maps, start=1):
             _drawMap(figure.add_subplot(columns[column]), title, one, legend=column == 1)
@@ -129,7 +132,8 @@ def _drawLoops(axes, tables):
                       lw=2 if number == 0 else 0.8, alpha=1 if number == 0 else 0.35, label=name if number == 0 else None)
     table = tables[0]
     back = [k for k, stage in enumerate(table["stage"]) if stage == "imbibition"]
-    axes.plot([table["trappedGas"][k] for k in back], [table["capillaryPressure"][k] for k in back], color=_COLOURS["imbibition"], lw=1.3, ls=":", label="trapped, on imbibition")
+    axes.plot([table["trappedGas"][k] for k in back], [table["capillaryPressure"][k] for k in back], color=_COLOURS["imbibition"], lw=1.3, ls=":",
+              label="trapped, on imbibition")
     axes.set(xlim=(0, 1), xlabel="gas saturation $S_g$ [-]", ylabel="capillary pressure $P_c$ [Pa]")
     axes.set_ylim(bottom=0)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2, frameon=False, fontsize=8)
@@ -146,5 +150,6 @@ def _drawMap(axes, title, one, legend):
     axes.set(xlim=(corners[:, 0].min(), corners[:, 0].max()), ylim=(corners[:, 1].min(), corners[:, 1].max()), xticks=[], yticks=[], aspect="equal")
     axes.set_title(title, fontsize=9)
     if legend:
-        axes.legend(handles=[Patch(facecolor=colour, edgecolor="#9a8f73", label=label) for colour, label in zip(_COLOURS_OF_CELLS, ("water", "gas on the inlet", "trapped gas"))],
+        names = zip(_COLOURS_OF_CELLS, ("water", "gas on the inlet", "trapped gas"))
+        axes.legend(handles=[Patch(facecolor=colour, edgecolor="#9a8f73", label=label) for colour, label in names],
                     loc="upper left", bbox_to_anchor=(0, -0.04), ncol=3, frameon=False, fontsize=8)

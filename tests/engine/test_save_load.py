@@ -100,9 +100,9 @@ def test_continuedImbibitionIsTheUninterruptedOne(loadSample, tmp_path):
 
     def run(interrupt):
         loadSample(1e-3)
-        injection.startInjection(start=250, increment=0, max=251, pores=2, imbibition=True, snapOff=True, fluidDensity=1000, gravity=(0, -9.81), checkInvariants=True)
+        injection.startInjection(start=250, increment=0, max=251, pores=2, imbibition=True, snapOff=True, fluidDensity=1000, gravity=(0, -1.0), checkInvariants=True)
         O.run(300, True)
-        sediment.engine("gas").gasPressure = 90
+        sediment.engine("gas").gasPressure = 60
         O.run(300, True)
         gas = sediment.engine("gas")
         assert gas.nReturns > 5 and any(gas.cells()["cutOff"]) and "snapOff" in gas.imbibitionEvents()["kind"]
@@ -111,7 +111,7 @@ def test_continuedImbibitionIsTheUninterruptedOne(loadSample, tmp_path):
             reload(tmp_path)
             gas = sediment.engine("gas")
             assert same((reports(gas), gas.imbibitionEvents()), before)
-        for pressure in (40, 250):
+        for pressure in (30, 250):
             gas.gasPressure = pressure
             O.run(300, True)
         assert "reopening" in gas.imbibitionEvents()["kind"]

@@ -19,8 +19,9 @@ def runs():
 def test_cyclesAreHysteretic(runs):
     for run in runs:
         assert run["maximum [-]"] >= 0.97 and run["lost [Pa]"] > 0, run
-        # Water refills pores of 2.7 to 3.8 gamma/r that gas entered at some 4.7 gamma/r: a fifth to two fifths of P_c of some 150 Pa is lost.
-        assert 20 < run["lost [Pa]"] < 150, run
+        # Gas goes in at some 150 Pa; if all came back at the refill pressure of the pores, 2.7 to 3.8 gamma/r against 4.7, at least a fifth of
+        # that would be lost; if nothing came back, all of it.
+        assert 30 < run["lost [Pa]"] < 150, run
 
 
 def test_gasStaysBehind(runs):

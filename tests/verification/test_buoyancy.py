@@ -81,11 +81,14 @@ def test_imbibitionOfAChain(chain):
 
 
 @pytest.fixture
-def halfFull(rigid):
+def halfFull(standing):
+    """A function (**attributes) -> gas engine whose gas of 155 Pa has filled part of the pores, one a step."""
+
     def make(**attributes):
-        gas = rigid("settled", gasPressure=155, **attributes)
-        O.step()
-        assert 0.1 < gas.gasSaturation < 0.9
+        gas = standing(gasPressure=155, invasionInterval=1, **attributes)
+        while gas.gasSaturation < 0.4:
+            O.step()
+        assert gas.gasSaturation < 0.8
         return gas
 
     return make

@@ -2,30 +2,22 @@
 
 import math
 
-import numpy as np
 import pytest
 from yade import O
-from yade.wrapper import ForceResetter, GasInvasionEngine
 
-K = 1e-13  # m^3/(Pa s)
+K = 1e-8  # m^3/(Pa s): a pore of some 3e-7 m^3 empties within some hundred steps of a millisecond
 
 
 @pytest.fixture
-def trapped(loadSample, handScene):
+def trapped(standing):
     """A function (**attributes) -> gas engine in grains that stand still, drained at 300 Pa with clusters of water left; time steps of 1 ms."""
 
     def make(**attributes):
-        loadSample()
-        disks = [(b.state.pos[0], b.state.pos[1], b.shape.radius) for b in O.bodies if hasattr(b.shape, "radius")]
-        walls = [b.state.pos[b.shape.axis] for b in list(O.bodies)[:4]]
-        handScene(disks, walls)
-        gas = GasInvasionEngine(trapping=True, gasPressure=300, minLevelSteps=1, maxLevelSteps=1, checkInvariants=True, **attributes)
-        gas.inletFrom, gas.inletTo = gas.inletStretch(2, 0.5 * (walls[0] + walls[1]))
-        O.engines = [ForceResetter(), gas]
+        gas = standing(trapping=True, gasPressure=300, **attributes)
         O.dt = 1e-3
         O.step()
-        assert O.engines[1].nTrappedWater > 3
-        return O.engines[1]
+        assert gas.nTrappedWater > 3
+        return gas
 
     return make
 
@@ -69,24 +61,20 @@ def test_waterLeavesLinearlyInTime(trapped):
 
 
 def test_poresEmptyAfterTheirVolumeOverTheFlow(trapped):
-    """Each event of a cluster comes V/q after the one before: to a step of time, as what is left of a step is not carried on."""
+    """A pore takes V/q, to a step of time (what is left of a step is not carried on)."""
     gas = trapped()
     gas.filmConductance = K
-    nBefore, entered = gas.nEvents, 0
-    due = {}
-    for _ in range(200):
-        begin = O.time
-        now = {min(group): (group, behind, begin + sum(gas.cells()["water"][c] for c in behind) / (K * (300 - p))) for group, p, behind in clusters(gas) if p < 300}
-        if not now or entered >= 5:
-            break
-        key, (group, behind, when) = min(now.items(), key=lambda item: item[1][2])
-        phases = lambda: [gas.cells()["phase"][c] for c in behind]
-        O.run(max(1, int((when - O.time) / O.dt) - 2), True)
-        assert not any(phases())
-        O.run(5, True)
-        assert all(phases()), "it is gas when its water is gone"
-        entered += 1
-    assert entered >= 3 and gas.nEvents >= nBefore + entered
+    begin, water = O.time, gas.cells()["water"]
+    due = sorted((begin + sum(water[c] for c in behind) / (K * (300 - p)), sorted(behind)) for _, p, behind in clusters(gas) if p < 299)
+    assert len(due) > 2
+    # The first pores of all clusters: each cluster empties by itself.
+    for when, behind in due[:3]:
+        O.run(max(1, int((when - O.time) / O.dt) - 1), True)
+        phase = gas.cells()["phase"]
+        assert not any(phase[c] for c in behind)
+        O.run(3, True)
+        phase = gas.cells()["phase"]
+        assert all(phase[c] for c in behind), "it is gas when its water is gone"
 
 
 def test_pressureOfACluster(trapped):
