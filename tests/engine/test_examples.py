@@ -179,3 +179,12 @@ def test_percolation(tmp_path):
             # Four standard errors, and 0.03 for the smallest networks: tests/verification and the manual have larger ones.
             assert one["dimension"] == pytest.approx(found["literature"][kind], abs=4 * one["dimensionError"] + 0.03)
     assert (tmp_path / "run" / "pictures" / "percolation.png").stat().st_size > 50_000
+
+
+def test_viscousDisplacement(tmp_path):
+    found = example("27_viscous_displacement").main(str(tmp_path / "run"), count=150, steps=60)
+    # Even 12 by 12 pores tell a piston from a finger.
+    assert found["stable displacement"]["saturation"] > 0.7 > found["viscous fingering"]["saturation"]
+    assert found["stable displacement"]["roughness"] < found["viscous fingering"]["roughness"]
+    assert max(one["ledger"] for one in found.values()) < 1e-12
+    assert (tmp_path / "run" / "pictures" / "displacement.png").stat().st_size > 20_000
