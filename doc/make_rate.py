@@ -31,10 +31,10 @@ def marks(axes, run, x, colour):
 
 
 def main():
-    runs = {name: one(name, **values) for name, values in RUNS.items()}
+    runs = {name: one(name, **RUNS[name]) for name in STYLES}
     print(*table(runs.values()), sep="\n")
     with newFigure((7.2, 3.0)) as figure:
-        left, right = figure.subplots(1, 2, gridspec_kw={"left": 0.075, "right": 0.985, "bottom": 0.16, "top": 0.96, "wspace": 0.2})
+        left, right = figure.subplots(1, 2, gridspec_kw={"left": 0.075, "right": 0.985, "bottom": 0.16, "top": 0.925, "wspace": 0.2})
         for name in ("ramp", "large", "small"):
             run, (label, colour, line) = runs[name], STYLES[name]
             history = run["history"]

@@ -5,8 +5,8 @@
 Methane flows into the fine sediment of Figure 16 from dead volumes of one and of a hundred times its pores; the rates let
 the pressure rise equally fast. A large volume acts like a prescribed pressure: what opens runs through. A small one loses
 its pressure to each pore that fills, and the gas has to be pressed up again: a sawtooth, and more gas is needed at the end.
-Expect: gas at the top at 135-145 kPa from the large volume; from the small one drops of some ten kPa, and no pressure
-beyond that of the large one by more than a few per cent. The gas is accounted for to 1e-10 of its mass. A minute or two.
+Expect: the first opened throat at the same pressure, some 140 kPa; from the large volume gas at the top at once, from the small
+one drops of ten kPa and more. The gas is accounted for to 1e-10 of its mass. Some minutes.
 """
 
 import os

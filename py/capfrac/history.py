@@ -22,7 +22,12 @@ def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, 
     with newFigure((6.4, 4.2)) as figure:
         grid = {"left": 0.115, "right": 0.885, "bottom": 0.115, "top": 0.915 if title else 0.97, "hspace": 0.12, "height_ratios": (2, 1)}
         above, below = figure.subplots(2, 1, sharex=True, gridspec_kw=grid)
-        above.plot(time / second, pressure / pascal, color=COLOURS["gas"], linewidth=1.3, zorder=2)
+        # Through the entries, too: between two rows of the history the pressure may jump.
+        entries = events if events is not None else {"time": [], "gasPressure": []}
+        at = np.concatenate([time, np.array(entries["time"], dtype=float) - startTime])
+        values = np.concatenate([pressure, np.array(entries["gasPressure"], dtype=float) - waterPressure])
+        order = np.argsort(at, kind="stable")
+        above.plot(at[order] / second, values[order] / pascal, color=COLOURS["gas"], linewidth=1.3, zorder=2)
         if events is not None and len(events["time"]):
             at = (np.array(events["time"]) - startTime) / second
             entered = (np.array(events["gasPressure"]) - waterPressure) / pascal
@@ -44,7 +49,7 @@ def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, 
         bonds = below.twinx()
         bonds.plot(time / second, history["brokenBonds"], color=COLOURS["broken"], linewidth=1.1, drawstyle="steps-post")
         bonds.set_ylabel("broken bonds", color=COLOURS["broken"])
-        bonds.set_ylim(bottom=0)
+        bonds.set_ylim(0, 1.05 * max(1, *history["brokenBonds"], 1))
         below.yaxis.label.set_color(COLOURS["dot"])
         for axes in figure.axes:
             axes.tick_params(labelsize=8)

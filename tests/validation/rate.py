@@ -16,16 +16,19 @@ from yade import O
 from runs import FOLDER
 
 PLACE = FOLDER / "rate"
-START, INCREMENT, MAX, PORES, INTERVAL = 100e3, 1e3, 250e3, 6, 50
+#: Where the injections begin [Pa]: below the first entry.
+START = {"figure16": 125e3, "figure15": 140.0}
 #: Volumes upstream of the inlet, over that of the pores [-], and the rise of the pressure within a period of a grain [Pa].
 SMALL, LARGE, RISE = 3, 300, 60.0
+#: Large for a coarse sample: P_c is 150 Pa of 101 kPa.
+LARGE_COARSE = 1e5
 #: Kinds of runs: keywords of one().
 RUNS = {
     "ramp": dict(), "ramp-ideal": dict(law="ideal"),
     "small": dict(volume=SMALL), "small-half-rate": dict(volume=SMALL, rise=RISE / 2), "small-half-step": dict(volume=SMALL, refine=2),
     "large": dict(volume=LARGE), "large-half-rate": dict(volume=LARGE, rise=RISE / 2), "large-half-step": dict(volume=LARGE, refine=2),
 }
-COARSE = {"coarse-ramp": dict(case="figure15"), "coarse-ramp-ideal": dict(case="figure15", law="ideal"), "coarse-large": dict(case="figure15", volume=LARGE, rise=0.02)}
+COARSE = {"coarse-ramp": dict(case="figure15"), "coarse-ramp-ideal": dict(case="figure15", law="ideal"), "coarse-large": dict(case="figure15", volume=LARGE_COARSE, rise=0.02)}
 
 
 def sampleOf(case, seed):
@@ -42,7 +45,7 @@ def sampleOf(case, seed):
     return path
 
 
-def one(name, seed=1, case="figure16", law="incompressible", volume=None, rise=RISE, refine=1, after=6000):
+def one(name, seed=1, case="figure16", law="incompressible", volume=None, rise=RISE, refine=1, after=3000):
     """One injection until some steps after the breakthrough: numbers, history and events as a dict, kept in a file.
 
     ``volume``: None for the ramp, else the dead volume of a supply whose rate lets the pressure rise by ``rise``. ``refine``
@@ -59,7 +62,7 @@ def one(name, seed=1, case="figure16", law="incompressible", volume=None, rise=R
     O.reset()
     O.load(str(sample), quiet=True)
     O.dt /= refine
-    gas = injection.startInjection(ramp["start"], ramp["increment"], MAX if case == "figure16" else ramp["max"], parameters["inlet"]["pores"], checkInvariants=True,
+    gas = injection.startInjection(START[case], ramp["increment"], ramp["max"], parameters["inlet"]["pores"], checkInvariants=True,
                                    invasionInterval=ramp["invasionInterval"] * refine, historyInterval=10 * refine, minLevelSteps=100 * refine,
                                    gasLaw=law if volume is None else "ideal")
     if volume is not None:
@@ -88,12 +91,23 @@ def highest(run):
     return max(p for p, i in zip(run["history"]["gasPressure"], run["history"]["iteration"]) if run["breakthroughIter"] < 0 or i <= run["breakthroughIter"] + 10)
 
 
+def driving(run):
+    """Gas pressure from which it did not rise again before the breakthrough [Pa]: what drove the gas to the outlet."""
+    history = run["history"]
+    row = max(k for k, iteration in enumerate(history["iteration"]) if iteration <= run["breakthroughIter"])
+    pressure = max(history["gasPressure"][row], run["breakthrough"])
+    while row > 0 and history["gasPressure"][row - 1] >= history["gasPressure"][row]:
+        row -= 1
+    return max(pressure, history["gasPressure"][row])
+
+
 def table(runs):
     """Lines of numbers, for people."""
     lines = []
     for run in runs:
         at = run["breakthrough"]
-        lines.append(f"{run['name']:20s} seed {run['seed']}: opened at {(opening(run) or math.nan) / 1e3:7.2f}, highest {highest(run) / 1e3:7.2f}, breakthrough "
+        lines.append(f"{run['name']:20s} seed {run['seed']}: opened at {(opening(run) or math.nan) / 1e3:7.2f}, highest {highest(run) / 1e3:7.2f}, driven to the outlet at "
+                     f"{driving(run) / 1e3 if at else math.nan:7.2f}, there at "
                      f"{math.nan if at is None else at / 1e3:7.2f} kPa, events {len(run['events']['time'])}, error {run['error']:.1e}, detached {run['detached']}")
     return lines
 
