@@ -14,7 +14,7 @@ from capfrac.lab import figures
 HERE = Path(__file__).parent
 PICTURES = {"settle": ("figure7", "figure8"), "timestep": ("figure9",), "hydrate-ridge": ("figure10",), "compact": ("compaction",), "biaxial-bonded": ("biaxial",),
             "contacts": ("contacts",), "diffusion": ("figure11", "figure12"), "closed-forms": ("closed-forms",), "undrained": ("figure13",), "terzaghi": ("terzaghi",), "mandel": ("mandel",),
-            "stability": ("stability",), "percolation": ("percolation",)}
+            "stability": ("stability",), "percolation": ("percolation",), "displacement": ("displacement",)}
 #: Tables that the manual offers as files.
 DATA = {"percolation": ("percolation",)}
 UNITS = {"youngModulus": ("E [MPa]", 1e-6), "poissonRatio": ("ν", 1), "frictionAngle": ("φ [°]", 1), "cohesion": ("c [kPa]", 1e-3)}

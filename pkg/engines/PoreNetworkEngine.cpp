@@ -185,7 +185,7 @@ void PoreNetworkEngine::remesh()
 	syncContents();
 	beforeRemesh();
 	const auto voids = capfrac::voidAreas(after, reader.grains, reader.box);
-	contents  = capfrac::carryOver(mesh, contents, after, voids);
+	contents  = capfrac::carryOver(mesh, contents, after, voids, drained() ? std::vector<double>() : currentVoids());
 	openEdges = capfrac::carryOverEdges(mesh, openEdges, after, capfrac::freshEdge);
 	std::swap(mesh, after);
 	followRemesh(after);

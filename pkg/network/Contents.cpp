@@ -17,6 +17,7 @@ namespace {
 	/// What one part of the changed region holds.
 	struct Part {
 		double gas = 0, water = 0, gasMass = 0, newVoid = 0;
+		double asGas = 0, asWater = 0; ///< what decides the phase: amounts, or the voids of either phase
 		int    nNew   = 0;
 		bool   source = false;
 		double heldGas = 0, heldPressure = 0; ///< gas in held cells, and the sum of it times its pressure
@@ -99,7 +100,9 @@ std::array<double, 2> followVoids(Contents& contents, const std::vector<double>&
 	return entered;
 }
 
-Contents carryOver(const Triangulation& before, const Contents& contents, const Triangulation& after, const std::vector<double>& newVoid)
+Contents carryOver(
+        const Triangulation& before, const Contents& contents, const Triangulation& after, const std::vector<double>& newVoid,
+        const std::vector<double>& oldVoid)
 {
 	Contents carried;
 	carried.resize(after.cells.size());
@@ -138,6 +141,9 @@ Contents carryOver(const Triangulation& before, const Contents& contents, const 
 		part.gas += contents.gas[lost[m]];
 		part.water += contents.water[lost[m]];
 		part.gasMass += contents.gasMass[lost[m]];
+		if (!oldVoid.empty()) (contents.phase[lost[m]] == Phase::gas ? part.asGas : part.asWater) += std::max(0.0, oldVoid[lost[m]]);
+		else
+			part.asGas += contents.gas[lost[m]], part.asWater += contents.water[lost[m]];
 		part.source |= contents.source[lost[m]] && contents.phase[lost[m]] == Phase::gas;
 		part.freeGas |= contents.phase[lost[m]] == Phase::gas && !contents.held[lost[m]];
 		if (contents.held[lost[m]]) {
@@ -157,7 +163,7 @@ Contents carryOver(const Triangulation& before, const Contents& contents, const 
 		carried.gas[c]     = share * part.gas;
 		carried.water[c]   = share * part.water;
 		carried.gasMass[c] = share * part.gasMass;
-		carried.phase[c]   = part.gas > 0 && part.gas >= part.water ? Phase::gas : Phase::water;
+		carried.phase[c]   = part.asGas > 0 && part.asGas >= part.asWater ? Phase::gas : Phase::water;
 		carried.source[c]  = part.source && carried.phase[c] == Phase::gas;
 		if (carried.phase[c] == Phase::gas && part.heldGas > 0 && !part.freeGas) {
 			carried.held[c]         = 1;

@@ -48,7 +48,12 @@ std::array<double, 2> followVoids(Contents& contents, const std::vector<double>&
 /// mass of the gas, is kept and shared out by void area. A new cell is gas where its part held at least as much gas as water.
 /// A new gas cell is held where no gas of its part was free, at the mean pressure by amount. `newVoid` are the void areas of the
 /// new cells [m^2]. Both triangulations must tile the same box.
-Contents carryOver(const Triangulation& before, const Contents& contents, const Triangulation& after, const std::vector<double>& newVoid);
+///
+/// Where amounts of gas are no volumes, `oldVoid`, the void areas of the cells before [m^2], decides in their place: a new cell is gas
+/// where the cells of gas in its part had at least half of the void.
+Contents carryOver(
+        const Triangulation& before, const Contents& contents, const Triangulation& after, const std::vector<double>& newVoid,
+        const std::vector<double>& oldVoid = {});
 
 /// Carries one flag per edge over: an edge in both triangulations keeps its flag, a new one gets `fresh`.
 std::vector<std::uint8_t> carryOverEdges(

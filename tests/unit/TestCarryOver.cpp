@@ -76,6 +76,26 @@ TEST(CarryOver, OneFlipSharesByVoidAndDecidesByMajority)
 	}
 }
 
+TEST(CarryOver, TheVoidsDecideWhereTheyAreGiven)
+{
+	// Compressed gas: its amount is ten times its volume, and must not make the whole diamond gas.
+	const auto flat = twoDiamonds(false), tall = twoDiamonds(true);
+	const auto before = triangulate(flat, oblong), after = triangulate(tall, oblong);
+	const int  oldA = byVertices(before).at({ 0, 1, 3 }), oldB = byVertices(before).at({ 1, 2, 3 });
+	const int  newA = byVertices(after).at({ 0, 1, 2 });
+	auto       contents   = waterFilled(voidAreas(before, flat, oblong));
+	contents.gas[oldA]    = 0.4;
+	contents.water[oldA]  = 0;
+	contents.phase[oldA]  = Phase::gas;
+	const auto voids      = voidAreas(after, tall, oblong);
+	for (bool mostlyGas : { false, true }) {
+		auto oldVoid  = voidAreas(before, flat, oblong);
+		oldVoid[oldA] = 0.04, oldVoid[oldB] = mostlyGas ? 0.03 : 0.05;
+		EXPECT_EQ(carryOver(before, contents, after, voids, oldVoid).phase[newA], mostlyGas ? Phase::gas : Phase::water);
+	}
+	EXPECT_EQ(carryOver(before, contents, after, voids).phase[newA], Phase::gas);
+}
+
 TEST(CarryOver, ASourceInWaterDoesNotSpread)
 {
 	const auto flat = twoDiamonds(false), tall = twoDiamonds(true);
