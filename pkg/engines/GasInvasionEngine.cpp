@@ -54,6 +54,7 @@ void GasInvasionEngine::checkInlet() const
 		for (const auto& p : inletPoints)
 			if (!(p[0] > reader.box.left && p[0] < reader.box.right && p[1] > reader.box.bottom && p[1] < reader.box.top))
 				capfrac::refuseAttribute("inletPoints [m]", p.transpose(), "points inside the box");
+		checkInletPoints();
 		return;
 	}
 	const int  wall = wallFromName("inletWall", inletWall);
@@ -66,6 +67,21 @@ void GasInvasionEngine::checkInlet() const
 	const Real slack = 1e-9 * (high - low);
 	if (!(inletFrom >= low - slack)) capfrac::refuseAttribute("inletFrom [m]", inletFrom, allowed.str());
 	if (!(inletTo <= high + slack)) capfrac::refuseAttribute("the inlet is wider than its wall: inletTo [m]", inletTo, allowed.str());
+}
+
+/// A point in a grain stands for the pore beside it, but not all of them may: then the inlet is not where it was meant to be.
+void GasInvasionEngine::checkInletPoints() const
+{
+	const auto holds = [&](const Vector2r& p) {
+		return std::find_if(reader.grains.begin(), reader.grains.end(), [&](const auto& grain) { return capfrac::norm(grain.centre - capfrac::Vec2 { p[0], p[1] }) < grain.radius; });
+	};
+	if (std::any_of(inletPoints.begin(), inletPoints.end(), [&](const Vector2r& p) { return holds(p) == reader.grains.end(); })) return;
+	const auto&        p     = inletPoints.front();
+	const auto         grain = holds(p);
+	std::ostringstream allowed;
+	allowed << "a point in the void, at least one; this one lies in body #" << reader.grainIds[grain - reader.grains.begin()] << ", of radius " << grain->radius
+	        << " m at (" << grain->centre.x << ", " << grain->centre.y << ") m";
+	capfrac::refuseAttribute("inletPoints [m]", p.transpose(), allowed.str());
 }
 
 std::vector<int> GasInvasionEngine::inletDomains() const

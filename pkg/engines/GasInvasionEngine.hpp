@@ -80,6 +80,7 @@ private:
 	bool                     mayInvade() const;
 	std::vector<int>         inletDomains() const;
 	void                     checkInlet() const;
+	void                     checkInletPoints() const;
 	void                     noteBreakthrough();
 	void                     checkInvariantsNow(const capfrac::DrainageNetwork& network, const capfrac::Drainage& drainage) const;
 	Real                     gapGrowth(int edge) const;
@@ -187,7 +188,7 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((std::string,inletWall,"bottom",Attr::triggerPostLoad,"Wall with the gas inlet: ``'left'``, ``'right'``, ``'bottom'``, ``'top'`` [-]."))
 		((Real,inletFrom,0,,"Begin of the inlet on its wall, a coordinate [m]. Pores whose stretch of wall has its middle in [inletFrom, inletTo] are the inlet."))
 		((Real,inletTo,0,,"End of the inlet on its wall, a coordinate [m]. The width of the inlet controls at which pressure a cohesive sediment opens; it is on record in :yref:`inletPores<GasInvasionEngine.inletPores>`."))
-		((std::vector<Vector2r>,inletPoints,,,"Instead of a stretch of wall: points [m]; the pores that hold them are the inlet."))
+		((std::vector<Vector2r>,inletPoints,,,"Instead of a stretch of wall: points [m], at least one in the void; the pores that hold them are the inlet."))
 		((std::string,outletWall,"top",Attr::triggerPostLoad,"Wall through which the water leaves, or ``'any'`` for all four; gas that reaches it has broken through [-]."))
 		((bool,trapping,false,Attr::triggerPostLoad,"Whether water that is cut off from the outlet stays (true) or drains by films (false) [-]."))
 		((bool,imbibition,false,,"Whether water refills pores when the capillary pressure falls below their refill pressure $2\\gamma\\cos\\theta/r_b$, $r_b$ the radius of the largest sphere in the pore, and gas that loses the inlet is trapped: it keeps its amount and its pressure. Gas recedes through the inlet alone, whose pores stay gas; the outlet passes water alone."))

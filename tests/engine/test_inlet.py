@@ -70,3 +70,12 @@ def test_inletOfPoints(rigid):
     assert gas.inletPores == 1 and gas.inletWidth == 0
     assert cells["inlet"][target] and cells["phase"][target] == 1
     assert {cells["domain"][c] for c, inlet in enumerate(cells["inlet"]) if inlet} == {cells["domain"][target]}
+
+
+def test_aPointInAGrainIsNoInlet(rigid):
+    gas = rigid("settled")
+    grain = next(body for body in O.bodies if hasattr(body.shape, "radius"))
+    at = (grain.state.pos[0], grain.state.pos[1])
+    gas.inletPoints = [at]
+    with pytest.raises(ValueError, match=rf"inletPoints \[m\] = .*, allowed: a point in the void, at least one; this one lies in body #{grain.id}, of radius"):
+        gas.prepare()

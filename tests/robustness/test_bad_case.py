@@ -83,6 +83,11 @@ BAD = [
     (dict(ramp__max=50), "ramp.max = 50.0 Pa, allowed: >= ramp.start = 100.0 Pa"),
     (dict(ramp__minLevelSteps=30000), "ramp.maxLevelSteps = 20000, allowed: >= ramp.minLevelSteps = 30000"),
     (dict(gas__entryLaw="mayerStowePrincen", gas__contactAngle=10), "gas.contactAngle = 10.0, allowed: 0 with gas.entryLaw = 'mayerStowePrincen'"),
+    (dict(water__flow="frozen"), "water.flow = 'frozen', allowed: 'drained', 'solved'"), (dict(water__viscosity=0), "water.viscosity = 0"),
+    (dict(water__bulkModulus=-1), "water.bulkModulus = -1"), (dict(gas__viscosity=0), "gas.viscosity = 0"), (dict(water__conductanceFactor=0), "water.conductanceFactor = 0"),
+    (dict(water__flow="solved"), "gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved'"),
+    (dict(water__flow="solved", gas__law="ideal", gas__imbibition=True), "gas.imbibition = true, allowed: false with water.flow = 'solved'"),
+    (dict(water__flow="solved", gas__law="ideal", gas__waterDensity=1000, gas__gravity=[0, -9.81]), r"gas.gravity = \[0, -9.81\], allowed: \[0, 0\], or fluids without weight"),
 ]
 
 
