@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from capfrac import export, figures, history, mode, sediment, snapshot
+from capfrac import export, figures, fracture, history, mode, sediment, snapshot
 from capfrac.case import MAX_SIZE_RATIO, readCase, resolveCase
 from capfrac.errors import CapfracError, CaseError, RunFolderError, SceneError
 from capfrac.runfolder import RunFolder, holdingInterrupts
@@ -186,6 +186,7 @@ class Run:
         shots = self.folder.sub("snapshots")
         shot.save(shots / f"{name}.npz")
         figures.drawSnapshot(shot, shots / f"{name}.png", title=None)
+        fracture.takeStress(self.gas, shot).save(shots / f"{name}-stress.npz")
         entry = {"name": name, "time [s]": shot.time, "capillaryPressure [Pa]": shot.gasPressure - shot.waterPressure, "gasSaturation": shot.gasSaturation}
         entries = [e for e in self.folder.summary["snapshots"] if e["name"] != name] + [entry]
         if self.case["output"]["fields"]:
@@ -292,7 +293,8 @@ class Run:
                             startTime=self.folder.summary["sample"]["startTime [s]"], waterPressure=gas.waterPressure, title=self.case["case"]["title"])
         results["gas"] = {**{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
                           "highestCapillaryPressure [Pa]": max(course["gasPressure"], default=gas.gasPressure) - gas.waterPressure}
-        self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results)
+        diagnostics = fracture.reportRun(self.folder.path, gas.openingThreshold, self.folder.writeWhole)
+        self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results, fracture=diagnostics)
         self.folder.checkpoint.unlink(missing_ok=True)
 
 

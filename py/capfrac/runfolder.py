@@ -4,7 +4,9 @@
     events.csv            every pore that gas entered: when, where, through which throat, at which pressure
     pc_saturation.csv     every pressure level: capillary pressure, saturation, bonds, displacement
     history.csv           the course in time: gas pressure, volume and mass of the gas, saturation, broken bonds
-    snapshots/            the states that pictures are drawn from (.npz) and the pictures (.png)
+    fracture.json         branches, tips, apertures, directions, broken bonds at initiation, breakthrough and end
+    fracture.csv          how the tips advanced, event by event
+    snapshots/            the states that pictures are drawn from (.npz), the stresses of the grains, and the pictures (.png)
     fields/               fields for ParaView: open the .pvd files
     checkpoint.yade.gz    the scene of the last checkpoint; only while the run is not finished
 
@@ -69,7 +71,8 @@ class RunFolder:
     """A run folder, opened for a case. Raises :class:`RunFolderError` when it cannot be used for it."""
 
     #: What a run writes: files, folders, and endings of the files in those folders.
-    FILES = ("events.csv", "pc_saturation.csv", "curve.png", "history.csv", "history.png", "checkpoint.yade.gz")
+    FILES = ("events.csv", "pc_saturation.csv", "curve.png", "history.csv", "history.png", "checkpoint.yade.gz", "fracture.json", "fracture.csv", "fracture.png",
+             "stress.png")
     FOLDERS = ("snapshots", "fields")
     SUFFIXES = (".npz", ".png", ".vtu", ".pvd")
 

@@ -188,3 +188,18 @@ def test_viscousDisplacement(tmp_path):
     assert found["stable displacement"]["roughness"] < found["viscous fingering"]["roughness"]
     assert max(one["ledger"] for one in found.values()) < 1e-12
     assert (tmp_path / "run" / "pictures" / "displacement.png").stat().st_size > 20_000
+
+
+def test_figure14(tmp_path):
+    results = example("25_figure14").main(str(tmp_path), seed=2, grainCount=60)
+    for name, found in results.items():
+        assert found["crackedThroats"] + found["stretchedThroats"] + found["rigidThroats"] > 0
+        assert (tmp_path / f"{name}-60-seed2" / "fracture.png").stat().st_size > 20_000
+        assert (tmp_path / f"{name}-60-seed2" / "stress.png").stat().st_size > 20_000
+
+
+def test_toughness(tmp_path):
+    found = example("26_toughness").main(str(tmp_path), grainCount=80, columns=10, brokenContacts=(1, 2), halfLengths=(1.5, 2.5))
+    assert found["latticeError"] < 0.03  # the increment of the ramp, 1 %, and the stretch of the bonds, 2 %
+    assert all(test["pressure"] > found["stress"] for test in found["samples"]["tests"])
+    assert (tmp_path / "toughness.png").stat().st_size > 20_000

@@ -28,6 +28,8 @@ SMALL = {"grains": {"count": 20, "rMin": 1e-3}}
     ("settle", ["grains.distribution='sieve'", "grains.sieve='no.csv'"], "the sieve curve no.csv cannot be read: No such file or directory"),
     ("settle", ["settle.gravity=0"], "settle.gravity = 0, allowed: a number > 0 [m/s^2]"),
     ("fit", ["fit.compressionIndex=-0.5"], "fit.compressionIndex = -0.5, allowed: a number > 0"),
+    ("toughness", ["toughness.stress=5e4"], "stress = 50000.0 Pa, allowed: 0 < stress <= 0.2 bondStrength = 20000 Pa"),
+    ("toughness", ["toughness.halfLengths=[3]"], "halfLengths = [3], brokenContacts = [1, 3, 5, 9], allowed: at least two of each"),
     ("hydrate-ridge", ["hydrate-ridge.laboratory='no.csv'"], "the laboratory curve no.csv cannot be read: No such file or directory"),
 ])
 def test_badInputIsRefused(tmp_path, capsys, monkeypatch, test, sets, message):

@@ -21,12 +21,33 @@ STIFFNESSES = (1e7, 1e8, 1e9)
 #: it to 10 and 8 kPa within a million steps.
 STIFFNESS_SEEDS = {1e7: SEEDS[:2], 1e8: SEEDS[:2], 1e9: SEEDS[:1]}
 
+#: Samples of Figure 14, each with equal stresses and with a larger vertical one.
+FRACTURE_SEEDS = (1, 2, 3)
 #: For studies of the pressure at which the sample opens: from well below, to the gas at the outlet, no fields.
 TO_BREAKTHROUGH = {"ramp.start": 60e3, "ramp.max": 300e3, "ramp.endAt": '"breakthrough"', "output.pressures": "[]", "output.fields": "false"}
 
 
 def figureRuns(case):
     return {f"{case}-seed{seed}": (case, {"grains.seed": seed, "output.fields": "false"}) for seed in SEEDS}
+
+
+def fractureRuns():
+    return {f"{case}-seed{seed}": (case, {"grains.seed": seed, "output.fields": "false"}) for case in ("figure14", "figure14_vertical") for seed in FRACTURE_SEEDS}
+
+
+def fractureRow(summary):
+    """The numbers of one run of Figure 14 that its table holds."""
+    found, parameters = summary["fracture"], summary["parameters"]
+    rounded = lambda value, digits=1: None if value is None else round(value, digits)  # noqa: E731
+    return {
+        "seed": parameters["grains"]["seed"], "vertical [Pa]": parameters["stress"]["vertical"], "horizontal [Pa]": parameters["stress"]["horizontal"],
+        "inletPores": summary["sample"]["inletPores"], "initiation [Pa]": summary["mode"]["initiationPressure"], "breakthrough [Pa]": summary["mode"]["breakthroughPressure"],
+        "mode": summary["mode"]["mode"], "branches": found["branchCount"], "branchesAt4": found["branchesAt"]["4"], "branchesAt8": found["branchesAt"]["8"],
+        "crackedThroats": found["crackedThroats"], "stretchedThroats": found["stretchedThroats"], "rigidThroats": found["rigidThroats"], "brokenBonds": found["brokenBonds"],
+        "meanAperture [rMin]": round(found["meanAperture [m]"] / parameters["grains"]["rMin"], 3),
+        **{f"{kind}Mean [degrees]": rounded(found["orientation"][kind]["mean [degrees]"]) for kind in ("extent", "branches", "apertures")},
+        **{f"{kind}Resultant": rounded(found["orientation"][kind]["resultant"], 3) for kind in ("extent", "branches", "apertures")}, "seconds": round(summary["seconds"], 1),
+    }
 
 
 def inletRuns():
@@ -73,7 +94,7 @@ def row(summary):
     }
 
 
-def writeTable(path, summaries):
+def writeTable(path, summaries, row=row):
     rows = [{"run": name, **row(summary)} for name, summary in summaries.items()]
     with open(path, "w", newline="", encoding="utf-8") as stream:
         writer = csv.DictWriter(stream, rows[0])
@@ -83,7 +104,7 @@ def writeTable(path, summaries):
 
 
 if __name__ == "__main__":
-    studies = {"figure15": figureRuns("figure15"), "figure16": figureRuns("figure16"), "inlet": inletRuns(), "stiffness": stiffnessRuns()}
+    studies = {"figure14": fractureRuns(), "figure15": figureRuns("figure15"), "figure16": figureRuns("figure16"), "inlet": inletRuns(), "stiffness": stiffnessRuns()}
     for study in sys.argv[1:] or studies:
-        for entry in writeTable(FOLDER / f"{study}.csv", execute(studies[study])):
+        for entry in writeTable(FOLDER / f"{study}.csv", execute(studies[study]), fractureRow if study == "figure14" else row):
             print(entry)

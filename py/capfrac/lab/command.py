@@ -24,6 +24,7 @@ TITLES = {
     "contacts": "the contact law on two grains (Equations 1 and 2)",
     "percolation": "gas in rigid networks of 1e5 pores and more: fractal dimension with and without trapping",
     "displacement": "gas against viscous water in rigid grains: Lenormand's corners",
+    "toughness": "gas pressure that drives a crack on, against linear elastic fracture mechanics",
     "closed-forms": "water between grains set by hand against formulas in closed form",
     "diffusion": "permeability, storage and the diffusion of pressure (Table 1, Figures 11 and 12)",
     "undrained": "compaction of a sealed sample and its Biot coefficient (Figure 13)",

@@ -80,6 +80,12 @@ TESTS = {
     "sensitivity": _own("sensitivity", positive("", "factor", "-", 2.0, "Factor by which each micro parameter is raised and lowered."),
                         *(key for key in _BIAXIAL if key.name != "bondStrength"), positive("", "bondStrength", "Pa", 100e3, "Strength of the bonds of the reference sample.")),
     "contacts": GRAINS[8:12],
+    "toughness": _own("toughness", Key("", "halfLengths", list, "-", (3.0, 5.0, 7.0, 10.0), "Half-lengths of the cracks in the samples, in mean radii, at least two."),
+                      Key("", "seeds", int, "-", 3, "Samples, of as many seeds from grains.seed on.", low=1),
+                      positive("", "stress", "Pa", 3e3, "Isotropic stress on the walls, up to a fifth of bondStrength."),
+                      positive("", "bondStrength", "Pa", 100e3, "Strength of the bonds, sigma_c = tau_c of Eq. 5."),
+                      Key("", "columns", int, "-", 30, "Grains along the sides of the square lattice.", low=8),
+                      Key("", "brokenContacts", list, "-", (1, 3, 5, 9), "Contacts without bond in the cracks of the lattice, at least two numbers.")),
     "closed-forms": tuple(key for key in GRAINS if key.name in ("rMin", "rMax", "seed", "density", "normalStiffness", "shearStiffness", "friction")) + (
         replace(GRAINS[0], default=60, meaning="Number of grains of the sample that is stated in several systems of units."),
         positive("closed-forms", "bulkModulus", "Pa", 1e7, "Bulk modulus of the fluid K_f."),

@@ -6,7 +6,7 @@ and returns the results (a dict of numbers, texts, lists, dicts).
 
 from capfrac import snapshot
 from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, contacts, displacement, displacement_figures, figures, hydrate_ridge, percolation, percolation_figures, settling, tables
+from capfrac.lab import biaxial, compaction, contacts, displacement, displacement_figures, figures, hydrate_ridge, percolation, percolation_figures, settling, tables, toughness
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 
 
@@ -130,6 +130,18 @@ def _displacement(sample, own, run, base):
     return found
 
 
+def _toughness(sample, own, run, base):
+    found = toughness.toughness(sample, run=run, **own)
+    for kind in ("lattice", "samples"):
+        tests = found[kind]["tests"]
+        run.table(kind, {**{f"{name} [m]": [t[name] for t in tests] for name in ("halfLength", "radius", "width")}, "pressure [Pa]": [t["pressure"] for t in tests],
+                         "firstBond [Pa]": [t["firstBond"] for t in tests], "inletPores": [t["inletPores"] for t in tests],
+                         **({"expected [Pa]": [t["expected"] for t in tests]} if kind == "lattice" else {"seed": [t["seed"] for t in tests]})})
+    run.picture("toughness", lambda path: toughness.drawToughness(found, path))
+    return found
+
+
 #: The function of each test.
 REPORTS = {"settle": _settle, "timestep": _timestep, "compact": _compact, "fit": _fit, "hydrate-ridge": _hydrateRidge, "path": _path, "biaxial": _biaxial,
-           "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "percolation": _percolation, "displacement": _displacement}
+           "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "percolation": _percolation, "displacement": _displacement,
+           "toughness": _toughness}

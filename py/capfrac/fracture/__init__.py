@@ -1,0 +1,16 @@
+"""The fracture that an injection made: where it is, where it goes, how it branches, and the stress around it.
+
+    from capfrac import fracture, snapshot
+    start, now = (snapshot.load(f"runs/figure14-seed1/snapshots/{name}.npz") for name in ("start", "breakthrough"))
+    numbers, found = fracture.measureFracture(now, start)
+    print(numbers["branchCount"], [branch.angle for branch in found.fractureBranches])
+"""
+
+from capfrac.fracture.graph import SHORTEST, Branch, Fracture, findFracture
+from capfrac.fracture.orientation import axialMean, orientationVector, rayleighTest, rose, rotationTest
+from capfrac.fracture.report import FILES, measureFracture, orientationOfRuns, reportRun, tipAdvance
+from capfrac.fracture.stress import GrainStress, loadStress, principal, smoothField, takeStress
+from capfrac.fracture.throats import openedThroats
+
+__all__ = ["FILES", "SHORTEST", "Branch", "Fracture", "GrainStress", "axialMean", "findFracture", "loadStress", "measureFracture", "openedThroats",
+           "orientationOfRuns", "orientationVector", "principal", "rayleighTest", "reportRun", "rose", "rotationTest", "smoothField", "takeStress", "tipAdvance"]

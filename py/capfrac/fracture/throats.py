@@ -1,0 +1,53 @@
+"""Throats and cells of a snapshot as numbers: gaps, what has opened since the start, centres."""
+
+import numpy as np
+
+from capfrac.errors import CaseError
+
+
+def gapsOf(snapshot, pairs):
+    """(m,) gaps of pairs of bodies in a snapshot [m], negative in overlap; NaN for two walls or bodies that are not in it."""
+    pairs = np.asarray(pairs, dtype=int).reshape(-1, 2)
+    ends, rows = snapshot.endsOf(pairs), snapshot.rowOf(pairs)
+    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - np.where(rows >= 0, snapshot.r[rows], 0.0).sum(axis=1)
+
+
+def openedThroats(now, start, openingThreshold=0.01):
+    """Growth of the gaps since the start and which throats have opened: ``(aperture [m], opened)``, arrays (t,) over the throats of ``now``.
+
+    A throat has opened, as in ``GasInvasionEngine``, when its gap grew by more than ``openingThreshold`` mean radii of its pair
+    (the grain's radius at a wall), or when its bond is broken. :class:`CaseError` for snapshots of different grains.
+    """
+    if not np.array_equal(now.ids, start.ids):
+        raise CaseError(f"start holds {len(start.ids)} grains, allowed: a snapshot of the same {len(now.ids)} grains")
+    if not (np.isfinite(openingThreshold) and openingThreshold > 0):
+        raise CaseError(f"openingThreshold = {openingThreshold}, allowed: > 0")
+    growth = gapsOf(now, now.throatIds) - gapsOf(start, now.throatIds)
+    rows = now.rowOf(now.throatIds)
+    radius = np.where(rows >= 0, now.r[rows], 0.0).sum(axis=1) / np.maximum((rows >= 0).sum(axis=1), 1)
+    broken = {tuple(sorted(map(int, pair))) for pair in now.brokenBonds}
+    isBroken = np.array([tuple(sorted(map(int, pair))) in broken for pair in now.throatIds], dtype=bool)
+    return growth, (growth > openingThreshold * radius) | isBroken
+
+
+def mergeGap(start):
+    """The gap beyond which the engine took an edge for open [m]: between the widest closed and the narrowest open one at the start."""
+    gaps = gapsOf(start, start.throatIds)
+    known = np.isfinite(gaps)
+    closed, wide = gaps[known & ~start.throatOpen], gaps[known & start.throatOpen]
+    return 0.5 * (closed.max() + wide.min()) if len(closed) and len(wide) and closed.max() < wide.min() else 1e-3 * float(np.min(start.r))
+
+
+def cellCentres(snapshot, cells):
+    """(k, 2) centroids of the polygons of ``cells`` [m]."""
+    return np.array([_centroid(snapshot.polygon(cell)) for cell in cells]).reshape(-1, 2)
+
+
+def _centroid(corners):
+    shifted = corners - corners[0]  # areas of far polygons would lose digits
+    ahead = np.roll(shifted, -1, axis=0)
+    cross = shifted[:, 0] * ahead[:, 1] - ahead[:, 0] * shifted[:, 1]
+    area = cross.sum()
+    if abs(area) <= 1e-12 * np.ptp(corners, axis=0).max() ** 2:
+        return corners.mean(axis=0)
+    return corners[0] + ((shifted + ahead) * cross[:, None]).sum(axis=0) / (3 * area)
