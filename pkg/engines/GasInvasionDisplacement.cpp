@@ -161,12 +161,16 @@ void GasInvasionEngine::writeBack(const capfrac::TwoFluidNetwork& network, const
 		if (!pore.isGas && gain * minLevelSteps > restingGain * pore.volume) lastEventIter = static_cast<int>(scene->iter); // gas is on its way
 	}
 	gasSaturation = gas / volume;
+	std::vector<Real> sum(nPores, 0);
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+		sum[poreOfCell[c]] += math::max(Real(0), voids[c]);
 	cellPressure.resize(mesh.cells.size());
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const int   p    = poreOfCell[c];
 		const auto& pore = network.pores[p];
-		// A pore has one pressure: its cells share what it holds by their voids.
-		const Real share  = voids[c] / poreVolume[p];
+		// A pore has one pressure: its cells share what it holds by their voids; one with a negative void (in a torn sample) may be a pore of its own
+		// in the next step, and must not owe anything then.
+		const Real share  = math::max(Real(0), voids[c]) / (thickness * sum[p]);
 		contents.water[c] = share * pore.water, contents.gas[c] = share * pore.gas;
 		contents.gasMass[c] = densityAt(0) * contents.gas[c];
 		contents.phase[c] = pore.isGas ? capfrac::Phase::gas : capfrac::Phase::water;

@@ -22,10 +22,11 @@ def test_figure15InTheSlowLimit():
 
 
 def test_figure16InTheSlowLimit():
-    """Fine grains: gas parts them at the pressures of drained water, 119 to 141 kPa for the first opened throat in five samples, and it is a fracture."""
+    """Fine grains: a fracture that reaches the top at the pressure of drained water, 141 kPa (doc/data/figure16.csv). Cells are pores of their own here, which moves thresholds by a few
+    per cent, as samples do among each other (136 to 141 kPa)."""
     found = run("figure16_solved")
     assert found["mode"]["mode"] == "fracture"
-    assert 115e3 < found["mode"]["initiationPressure"] < 160e3
+    assert found["mode"]["breakthroughPressure"] == pytest.approx(141e3, rel=0.05)
     assert found["results"]["ledger [m^3]"]["error"] < 1e-10
 
 
