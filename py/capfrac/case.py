@@ -84,6 +84,7 @@ KEYS = (
     positive("network", "openingThreshold", "-", 0.01, "Growth of a gap, in mean radii, beyond which its throat counts as opened."),
     Key("network", "checkInvariants", bool, "-", True, "Check the bookkeeping of gas and water after each avalanche."),
     Key("output", "pressures", list, "Pa", (), "Capillary pressures at which snapshots are taken, besides start, first opened throat (initiation), breakthrough and end."),
+    Key("output", "pictures", str, "-", "all", "Which pictures to draw: one of each snapshot, of the last one only, or none at all.", choices=("all", "end", "none")),
     Key("output", "fields", bool, "-", True, "Whether to write fields for ParaView with each snapshot."),
 )
 

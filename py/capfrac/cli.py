@@ -22,6 +22,9 @@ def _parser():
     from capfrac.lab import command as lab
 
     lab.addParser(commands)
+    from capfrac.sweep import command as sweep
+
+    sweep.addParser(commands)
     commands.add_parser("cases", help="list the shipped cases")
     commands.add_parser("describe", help="list every key of a case file with its unit, default and meaning")
     commands.add_parser("python", help="Python with YADE and capfrac at hand; takes Python's arguments", add_help=False)
@@ -124,6 +127,10 @@ def main(argv=None):
             from capfrac.lab import command as lab
 
             return lab.main(arguments)
+        if arguments.command == "sweep":
+            from capfrac.sweep import command as sweep
+
+            return sweep.main(arguments)
         if arguments.command == "cases":
             return _cases()
         if arguments.command == "describe":

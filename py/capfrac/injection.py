@@ -135,8 +135,8 @@ class Run:
         self.case, self.folder, self.report = case, folder, report
         self.gas = self.start = None
         self.begun = False  #: whether there is a run to take up again
-        self.spent = folder.summary.get("seconds", 0.0)
-        self.clock = time.time()
+        self.spent = folder.summary.get("seconds", 0.0), folder.summary.get("cpuSeconds", 0.0)
+        self.clock = time.time(), time.process_time()
 
     @property
     def ramped(self):
@@ -185,7 +185,8 @@ class Run:
         shot = snapshot.takeSnapshot(self.gas, self.start)
         shots = self.folder.sub("snapshots")
         shot.save(shots / f"{name}.npz")
-        figures.drawSnapshot(shot, shots / f"{name}.png", title=None)
+        if self.case["output"]["pictures"] in (("all", "end") if name == "end" else ("all",)):
+            figures.drawSnapshot(shot, shots / f"{name}.png", title=None)
         fracture.takeStress(self.gas, shot).save(shots / f"{name}-stress.npz")
         entry = {"name": name, "time [s]": shot.time, "capillaryPressure [Pa]": shot.gasPressure - shot.waterPressure, "gasSaturation": shot.gasSaturation}
         entries = [e for e in self.folder.summary["snapshots"] if e["name"] != name] + [entry]
@@ -210,9 +211,14 @@ class Run:
             self.folder.saveCheckpoint()
             self._load()
         self.folder.writeLogs(self.gas)
-        self.spent += time.time() - self.clock
-        self.clock = time.time()
-        self.folder.writeSummary(seconds=self.spent, mode=asdict(mode.measureMode(self.gas)))
+        self.folder.writeSummary(**self.cost(), mode=asdict(mode.measureMode(self.gas)))
+
+    def cost(self):
+        """Time and processor time of the run so far, all its parts together [s]."""
+        now = time.time(), time.process_time()
+        self.spent = tuple(spent + later - earlier for spent, later, earlier in zip(self.spent, now, self.clock))
+        self.clock = now
+        return dict(zip(("seconds", "cpuSeconds"), self.spent))
 
     def ended(self):
         """Why the run is over, or an empty text."""
@@ -280,8 +286,9 @@ class Run:
         gas = self.gas
         measured = mode.measureMode(gas)
         levels = gas.levels()
-        figures.drawCapillaryCurve(levels, self.folder.path / "curve.png", events=gas.events(), bondCount=self.folder.summary["sample"]["bondsHolding"],
-                                   breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure, title=self.case["case"]["title"])
+        if self.case["output"]["pictures"] != "none":
+            figures.drawCapillaryCurve(levels, self.folder.path / "curve.png", events=gas.events(), bondCount=self.folder.summary["sample"]["bondsHolding"],
+                                       breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure, title=self.case["case"]["title"])
         results = {"saturation": {f"capillaryPressureAt{share:.0%} [Pa]": next(
             (p - gas.waterPressure for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= share), None) for share in (0.5, 0.9, 0.97)},
             "displacementWithRattlersAtEnd [r]": float(moved.max()),
@@ -294,7 +301,7 @@ class Run:
         results["gas"] = {**{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
                           "highestCapillaryPressure [Pa]": max(course["gasPressure"], default=gas.gasPressure) - gas.waterPressure}
         diagnostics = fracture.reportRun(self.folder.path, gas.openingThreshold, self.folder.writeWhole)
-        self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results, fracture=diagnostics)
+        self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results, fracture=diagnostics, **self.cost())
         self.folder.checkpoint.unlink(missing_ok=True)
 
 

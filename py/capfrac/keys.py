@@ -88,12 +88,12 @@ def resolve(raw, keys, source):
     known = sections(keys)
     for section, entries in raw.items():
         if section not in known:
-            raise CaseError(f"{source}: unknown section [{section}]{_didYouMean(section, known)}")
+            raise CaseError(f"{source}: unknown section [{section}]{didYouMean(section, known)}")
         if not isinstance(entries, dict):
             raise CaseError(f"{source}: '{section}' stands outside of a section; allowed sections: {', '.join(known)}")
         for name in entries:
             if name not in known[section]:
-                raise CaseError(f"{source}: unknown key {section}.{name}{_didYouMean(name, known[section])}")
+                raise CaseError(f"{source}: unknown key {section}.{name}{didYouMean(name, known[section])}")
     return {section: {name: _value(key, raw.get(section, {}).get(name, key.default), source) for name, key in entries.items()}
             for section, entries in known.items()}
 
@@ -103,7 +103,8 @@ def sections(keys):
     return {section: {key.name: key for key in keys if key.section == section} for section in dict.fromkeys(key.section for key in keys)}
 
 
-def _didYouMean(name, known):
+def didYouMean(name, known):
+    """End of a message about an unknown name: what it may have been meant to be, or what there is."""
     close = difflib.get_close_matches(name, known, n=1)
     return f"; did you mean '{close[0]}'?" if close else f"; known: {', '.join(known)}"
 

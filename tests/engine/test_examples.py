@@ -203,3 +203,15 @@ def test_toughness(tmp_path):
     assert found["latticeError"] < 0.03  # the increment of the ramp, 1 %, and the stretch of the bonds, 2 %
     assert all(test["pressure"] > found["stress"] for test in found["samples"]["tests"])
     assert (tmp_path / "toughness.png").stat().st_size > 20_000
+
+
+def test_regimeMap(tmp_path):
+    rows = example("20_regime_map").main(str(tmp_path / "run"), points=4, grainCount=30)
+    # The corners of the map at 8 kPa: sigma'_H r/gamma = 0.07 without cohesion cannot but fracture, 720 cannot.
+    modes = {(row["grains.rMin [m]"], row["cohesion.chi [-]"]): row["mapMode"] for row in rows}
+    assert modes[3e-7, 0] == "fracture" and modes[3e-3, 0] == modes[3e-3, 10] == "capillary"
+    # Rigid grains of 3-6 mm, 4.65 gamma/r = 52 Pa in large packs; throats of 6 to 3 mm at contact open between 40 and 80 Pa.
+    assert all(40 < row["pressure"] < 80 for row in rows if row["mapMode"] == "capillary")
+    for name in ("regime_map.png", "regime_collapse.png"):
+        assert (tmp_path / "run" / "figures" / name).stat().st_size > 20_000
+    assert (tmp_path / "run" / "figures" / "critical_radius.csv").read_text().startswith("cohesion.chi [-],stress.horizontal [Pa],")

@@ -1,0 +1,101 @@
+"""The folder of a sweep, usable at any moment:
+
+    table.csv        every point of the sweep: parameters, mode, pressures, cost, or why it failed
+    sweep.json       name and title of the sweep, versions
+    points/NAME/     the run folder of each point, as of ``capfrac inject``
+    failed/NAME.txt  what a point said that failed
+    figures/         figures drawn from the table
+
+What has been done is what lies in the folder: there is no list that could disagree with it.
+"""
+
+import fcntl
+import json
+import os
+from pathlib import Path
+
+import capfrac
+from capfrac.errors import RunFolderError
+from capfrac.runfolder import caseKey
+from capfrac.sweep import table
+
+
+class SweepFolder:
+    """A sweep's folder, opened and locked. Raises :class:`RunFolderError` when it cannot be used for the sweep."""
+
+    def __init__(self, path, sweep):
+        self.path, self.sweep = Path(path), sweep
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            foreign = [entry.name for entry in self.path.iterdir() if entry.name not in (".lock", ".sweep.json")]
+            if foreign and not (self.path / "sweep.json").exists():
+                raise RunFolderError(f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or new one")
+            self._lock = open(self.path / ".lock", "w")  # open as long as this object lives
+            for name in ("points", "failed"):
+                (self.path / name).mkdir(exist_ok=True)
+        except OSError as problem:
+            raise RunFolderError(f"the folder {self.path} cannot be written: {problem.strerror}") from None
+        try:
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            raise RunFolderError(f"another sweep is at work in {self.path}; wait for it, or choose another folder") from None
+        self._rows = {}
+        for point in sweep.points:
+            summary = table.readSummary(self.run(point))
+            if summary and summary.get("caseKey") != caseKey(point.case):
+                raise RunFolderError(f"{self.run(point)} holds a run with other parameters than the sweep has now; choose another folder for the sweep, or remove that one")
+        head = {"name": sweep.name, "title": sweep.title, "description": sweep.description, "capfrac": capfrac.__version__}
+        self._whole("sweep.json", lambda path: path.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8"))
+
+    def close(self):
+        """Let others at the folder."""
+        self._lock.close()
+
+    def run(self, point):
+        """Run folder of a point."""
+        return self.path / "points" / point.name
+
+    def _error(self, point):
+        return self.path / "failed" / f"{point.name}.txt"
+
+    def state(self, point):
+        """'finished', 'failed', 'begun' (to be taken up) or 'open'."""
+        state = table.readSummary(self.run(point)).get("state", "")
+        if state == "finished":
+            return "finished"
+        return "failed" if self._error(point).exists() else "begun" if state else "open"
+
+    def fail(self, point, error):
+        """Record that a point failed, and why."""
+        self._whole(f"failed/{point.name}.txt", lambda path: path.write_text(error + "\n", encoding="utf-8"))
+
+    def forgive(self, point):
+        """Forget that a point failed."""
+        self._error(point).unlink(missing_ok=True)
+
+    def writeTable(self, points):
+        """Write table.csv with these points, in their order; returns its path."""
+        self._whole("table.csv", lambda path: table.write(path, [self.row(point) for point in points]))
+        return self.path / "table.csv"
+
+    def row(self, point):
+        """The line of a point in the table, as of now."""
+        if point.name not in self._rows:
+            state = self.state(point)
+            error = self._error(point).read_text(encoding="utf-8") if state == "failed" else ""
+            line = table.row(point, self.sweep.columns, state, table.readSummary(self.run(point)), self.run(point), error)
+            if state != "finished":
+                return line
+            self._rows[point.name] = line  # it stays as it is
+        return self._rows[point.name]
+
+    def _whole(self, name, write):
+        target = self.path / name
+        aside = target.with_name(f".{target.name}")
+        try:
+            write(aside)
+            os.replace(aside, target)
+        except OSError as problem:
+            raise RunFolderError(f"{target} cannot be written: {problem.strerror}") from None
+        finally:
+            aside.unlink(missing_ok=True)

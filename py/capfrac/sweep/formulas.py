@@ -1,0 +1,82 @@
+"""Formulas of sweep files: arithmetic on named numbers, and nothing else.
+
+``"0.5 * min(rigid, stress.horizontal)"``: numbers, names (with dots: keys of a case), ``+ - * / **``, brackets, and the
+functions of ``FUNCTIONS``. A formula cannot call or reach anything else, so a sweep file from elsewhere is safe to run.
+"""
+
+import ast
+import math
+import operator
+
+from capfrac.errors import CaseError
+
+FUNCTIONS = {"min": min, "max": max, "sqrt": math.sqrt, "exp": math.exp, "log": math.log, "log10": math.log10, "round": round}
+_BINARY = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow}
+_UNARY = {ast.UAdd: operator.pos, ast.USub: operator.neg}
+
+
+class Formula:
+    """A formula, parsed; ``names`` are those it needs. Raises :class:`CaseError` for what is not arithmetic."""
+
+    def __init__(self, text, source="formula"):
+        self.text, self.source = text, source
+        if not isinstance(text, (str, int, float)) or isinstance(text, bool):
+            raise CaseError(f"{source} = {text!r}, allowed: a formula (text) or a number")
+        try:
+            self._tree = ast.parse(str(text).strip(), mode="eval").body
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            raise CaseError(f"{source} = '{text}' is not a formula; allowed: numbers, names, + - * / **, brackets, {', '.join(FUNCTIONS)}") from None
+        self.names = set()
+        self._check(self._tree)
+
+    def _check(self, node):
+        """Refuse what is not arithmetic, and collect the names."""
+        name = _nameOf(node)
+        if name is not None:
+            self.names.add(name)
+        elif isinstance(node, ast.BinOp) and type(node.op) in _BINARY:
+            self._check(node.left), self._check(node.right)
+        elif isinstance(node, ast.UnaryOp) and type(node.op) in _UNARY:
+            self._check(node.operand)
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in FUNCTIONS and node.args and not node.keywords:
+            for argument in node.args:
+                self._check(argument)
+        elif not (isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool)):
+            raise CaseError(f"{self.source} = '{self.text}': '{ast.unparse(node)}' is not allowed in a formula; allowed: numbers, names, + - * / **, brackets, {', '.join(FUNCTIONS)}")
+
+    def value(self, values):
+        """The number for ``values`` (name -> number). Raises :class:`CaseError` naming what is missing or where no finite number comes out."""
+        missing = sorted(name for name in self.names if name not in values)
+        if missing:
+            raise CaseError(f"{self.source} = '{self.text}': '{missing[0]}' is not known; known: {', '.join(sorted(values))}")
+        for name in self.names:
+            if isinstance(values[name], bool) or not isinstance(values[name], (int, float)):
+                raise CaseError(f"{self.source} = '{self.text}': {name} = {values[name]!r} is not a number")
+        try:
+            found = self._evaluate(self._tree, values)
+        except (ArithmeticError, ValueError, TypeError) as problem:
+            raise CaseError(f"{self.source} = '{self.text}' has no value: {problem}") from None
+        if isinstance(found, complex) or not math.isfinite(found):
+            raise CaseError(f"{self.source} = '{self.text}' gives {found}, allowed: finite numbers")
+        return found
+
+    def _evaluate(self, node, values):
+        name = _nameOf(node)
+        if name is not None:
+            return values[name]
+        if isinstance(node, ast.BinOp):
+            return _BINARY[type(node.op)](self._evaluate(node.left, values), self._evaluate(node.right, values))
+        if isinstance(node, ast.UnaryOp):
+            return _UNARY[type(node.op)](self._evaluate(node.operand, values))
+        if isinstance(node, ast.Call):
+            return FUNCTIONS[node.func.id](*(self._evaluate(argument, values) for argument in node.args))
+        return node.value
+
+
+def _nameOf(node):
+    """``name`` or ``section.key``, or None."""
+    if isinstance(node, ast.Name):
+        return node.id
+    if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+        return f"{node.value.id}.{node.attr}"
+    return None

@@ -1,0 +1,66 @@
+"""Carry out a sweep: :func:`runSweep`."""
+
+import time
+
+from capfrac.sweep import execution
+from capfrac.sweep.folder import SweepFolder
+
+
+def runSweep(sweep, folder, processes=1, points=None, retry=False, report=lambda text: None, executor=None):
+    """Run the points of a :class:`~capfrac.sweep.sweepfile.Sweep` that are not finished; returns a dict.
+
+    ``folder``: see :mod:`capfrac.sweep.folder`; ``processes`` at a time (>= 1); ``points``: only the first so many; ``retry``: points
+    that failed earlier, too. ``report(text)`` gets a line for each point. ``executor`` replaces the processes on this
+    machine (see :mod:`capfrac.sweep.execution`). Interrupted (Ctrl-C), the folder is left usable and the interruption goes
+    on to the caller; the same call then goes on. The result: counts of ``finished``, ``failed`` and all ``points``, ``table``
+    (its path), ``seconds`` of this call.
+    """
+    place = SweepFolder(folder, sweep)
+    try:
+        return _run(sweep, place, processes, sweep.points[:points], retry, report, executor)
+    finally:
+        place.close()
+
+
+def _run(sweep, place, processes, points, retry, report, executor):
+    states = {point.name: place.state(point) for point in points}
+    for point in points:
+        if retry and states[point.name] == "failed":
+            place.forgive(point)
+            states[point.name] = "open"
+    todo = [point for point in points if states[point.name] in ("open", "begun")]
+    counts = {state: list(states.values()).count(state) for state in ("finished", "failed")}
+    byName, start = {point.name: point for point in todo}, time.monotonic()
+    report(f"{len(points)} points: {counts['finished']} finished, {counts['failed']} failed, {len(todo)} to run, {processes} at a time")
+    place.writeTable(points)
+
+    def done(outcome):
+        point = byName[outcome["name"]]
+        state = place.state(point)
+        if state != "finished":
+            place.fail(point, outcome["error"] or f"ended with status {outcome['status']} and without a result")
+            state = "failed"
+        counts[state] += 1
+        place.writeTable(points)
+        ended = counts["finished"] + counts["failed"]
+        remaining = (time.monotonic() - start) / (ended - len(points) + len(todo)) * (len(points) - ended)
+        report(f"{ended}/{len(points)} {point.name}: {_told(place, point, state)}, {outcome['seconds']:.0f} s; {asTime(remaining)} to go")
+
+    jobs = [{"name": point.name, "folder": str(place.run(point)), "arguments": list(point.arguments)} for point in todo]
+    if jobs:
+        execution.runAll(jobs, executor or execution.LocalProcesses(processes), done)
+    return {**counts, "points": len(points), "table": place.path / "table.csv", "seconds": time.monotonic() - start}
+
+
+def _told(place, point, state):
+    line = place.row(point)
+    if state == "failed":
+        return f"FAILED ({line['error'][:120]})"
+    pressure = line["breakthroughPressure [Pa]"]
+    return f"{line['mode']}, {'gas through at' if pressure is not None else 'ended at'} {line['endPressure [Pa]'] if pressure is None else pressure:.4g} Pa"
+
+
+def asTime(seconds):
+    """Seconds as people say them."""
+    minutes = round(seconds / 60)
+    return f"{seconds:.0f} s" if seconds < 90 else f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60:02d} min"

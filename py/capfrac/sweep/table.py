@@ -1,0 +1,107 @@
+"""The table of a sweep: one line a point, a CSV with units in its header."""
+
+import csv
+import json
+import math
+
+import numpy as np
+
+from capfrac import snapshot
+from capfrac.errors import CaseError
+
+#: Columns after those of the sweep file: header -> how to find it in a run's summary.
+RESULTS = {
+    "mode": lambda s: s["mode"]["mode"],
+    "ended": lambda s: s["ended"],
+    "initiationPressure [Pa]": lambda s: s["mode"]["initiationPressure"],
+    "breakthroughPressure [Pa]": lambda s: s["mode"]["breakthroughPressure"],
+    "endPressure [Pa]": lambda s: s["snapshots"][-1]["capillaryPressure [Pa]"],
+    "openedShare [-]": lambda s: s["mode"]["openedShare"],
+    "invadedThroats [-]": lambda s: s["mode"]["invadedThroats"],
+    "brokenBonds [-]": lambda s: s["mode"]["brokenBonds"],
+    "bonds [-]": lambda s: s["sample"]["bondsHolding"],
+    "displacement [r]": lambda s: s["mode"]["largestDisplacement"],
+    "medianDisplacement [r]": lambda s: s["medianDisplacement"],
+    "gasSaturation [-]": lambda s: s["mode"]["finalSaturation"],
+    "inletPores [-]": lambda s: s["sample"]["inletPores"],
+    "inletWidth [m]": lambda s: s["sample"]["inletWidth [m]"],
+    "boxWidth [m]": lambda s: s["sample"]["boxWidth [m]"],
+    "boxHeight [m]": lambda s: s["sample"]["boxHeight [m]"],
+    "porosity [-]": lambda s: s["sample"]["porosity"],
+    "entryPressureMin [Pa]": lambda s: s["sample"]["throatEntryPressureMin [Pa]"],
+    "entryPressureMax [Pa]": lambda s: s["sample"]["throatEntryPressureMax [Pa]"],
+    "iterations [-]": lambda s: s["results"]["iterations"],
+    "cpuSeconds [s]": lambda s: s["cpuSeconds"],
+    "capfrac": lambda s: s["versions"]["capfrac"],
+    "yade": lambda s: s["versions"]["yade"],
+}
+
+
+def row(point, columns, state, summary, folder, error=""):
+    """The line of a point with its run folder: dict of header -> value; what a point that is not finished does not have is None."""
+    line = {"point": point.name, "state": state, **{header(name, unit): point.values[name] for name, unit in columns.items()}}
+    if state == "finished":
+        summary = {**summary, "medianDisplacement": medianDisplacement(folder)}
+    for name, find in RESULTS.items():
+        line[name] = find(summary) if state == "finished" else None
+    return {**line, "error": " ".join(error.split())}
+
+
+def medianDisplacement(folder):
+    """Median displacement since the start of the grains that bore load then, over their radii [-]: at the breakthrough, or at the end without one.
+
+    One grain that slips away makes the largest displacement; this one says whether the sediment as a whole gave way.
+    """
+    shots = folder / "snapshots"
+    path = next((path for path in (shots / "breakthrough.npz", shots / "end.npz") if path.exists()), None)
+    if path is None:
+        return math.nan
+    shot = snapshot.load(path)
+    moved = (np.hypot(*shot.displacement.T) / shot.r)[~shot.rattler]
+    return float(np.median(moved)) if len(moved) else math.nan
+
+
+def header(name, unit):
+    """Header of a column: name and unit."""
+    return f"{name} [{unit}]"
+
+
+def write(path, rows):
+    """Write rows (all with the same headers) as a CSV; empty for None."""
+    with open(path, "w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, fieldnames=list(rows[0]))
+        writer.writeheader()
+        for line in rows:
+            writer.writerow({name: f"{value:.6g}" if isinstance(value, float) else value for name, value in line.items()})
+
+
+def read(path, needed=()):
+    """The lines of finished points of a table: a list of dicts, numbers as floats (NaN where empty), texts as they are.
+
+    Raises :class:`CaseError` for a file that is no such table, or one that lacks a ``needed`` column.
+    """
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            rows = list(csv.DictReader(stream))
+    except (OSError, UnicodeDecodeError) as problem:
+        raise CaseError(f"the table {path} cannot be read: {problem}") from None
+    for name in ("point", "state", *needed):
+        if not rows or name not in rows[0]:
+            raise CaseError(f"{path} is not the table of a sweep, or holds no points: the column '{name}' is missing")
+    return [{name: _number(value) if name.endswith("]") else value for name, value in line.items()} for line in rows if line["state"] == "finished"]
+
+
+def _number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan
+
+
+def readSummary(folder):
+    """summary.json of a run folder as a dict; {} where there is none that can be read."""
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return summary if isinstance(summary, dict) else {}

@@ -1,0 +1,37 @@
+"""One point of a sweep in a process of its own: what :mod:`capfrac.sweep.execution` starts.
+
+The process dies with the one that started it, so a sweep that is killed leaves nothing behind that would still write to
+its folder; the point's run folder is usable at any moment (see :mod:`capfrac.runfolder`).
+"""
+
+import ctypes
+import os
+import signal
+import sys
+
+_PR_SET_PDEATHSIG = 1
+
+
+def dieWith(parent):
+    """Have this process killed when the process (thread) that started it ends; ``parent`` is that process's id. Linux only, as YADE."""
+    ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if os.getppid() != parent:  # it ended before the line above
+        os._exit(1)
+
+
+def main():
+    """``parent's id, run folder, case, override, ...`` as arguments: run it. Exit status as that of the command ``capfrac``."""
+    parent, folder, case, *overrides = sys.argv[1:]
+    dieWith(int(parent))
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a sweep in the background of a script hands an ignored one on
+    from capfrac.case import readCase
+    from capfrac.errors import CapfracError
+    from capfrac.injection import inject
+
+    try:
+        inject(readCase(case, overrides), folder, report=lambda text: None)
+    except CapfracError as problem:
+        print(problem, file=sys.stderr)
+        sys.exit(1)
+    except KeyboardInterrupt:
+        sys.exit(130)
