@@ -180,7 +180,7 @@ void GasInvasionEngine::writeBack(const capfrac::TwoFluidNetwork& network, const
 	std::fill(edgeAdvancing.begin(), edgeAdvancing.end(), 0);
 	for (std::size_t t = 0; t < edgeOfThroat.size(); ++t)
 		edgeAdvancing[edgeOfThroat[t]] = network.throats[t].advancing;
-	if (done.filled.empty()) return;
+	if (done.filled.empty() && done.lost.empty()) return;
 	findDomains();
 	noteBreakthrough();
 }

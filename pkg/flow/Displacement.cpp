@@ -10,7 +10,7 @@ namespace capfrac {
 
 namespace {
 
-	/// Water left over, as a share of the pore, with which it counts as full; it stays there.
+	/// What is left of the fluid that a pore loses, as a share of the pore, with which it counts as gone; it stays there.
 	constexpr double full = 1e-6;
 
 	class Displacement {
@@ -51,14 +51,14 @@ namespace {
 			auto trial = attempt(part, h);
 			for (double gain; (gain = largestGain(trial)) > options.maxFilling;)
 				trial = attempt(part, h *= std::max(0.1, 0.9 * options.maxFilling / gain));
-			// The water that is left in the emptiest pore falls from `before` at 0 to `after` at h; find where it is nearly gone.
-			double low = 0, before = leastWater(nullptr), high = h, after = leastWater(&trial);
+			// What is left falls from `before` at 0 to `after` at h; find where it is nearly gone.
+			double low = 0, before = leastLeft(nullptr), high = h, after = leastLeft(&trial);
 			while (after < 0) {
 				h = low + (high - low) * std::clamp((before - 0.5 * full) / (before - after), 0.05, 0.95);
 				// It may jump there, because a throat opens: then the part ends before the jump.
 				const bool jumps = low > 0 && high - low < 1e-6 * high;
 				trial            = attempt(part, jumps ? h = low : h);
-				const double now = leastWater(&trial);
+				const double now = leastLeft(&trial);
 				if (jumps || (now >= 0 && now <= full)) break;
 				(now > 0 ? low : high) = h, (now > 0 ? before : after) = now;
 				if (high < 1e-12 * dt) throw FlowError("a pore fills faster than the time step can be divided; allowed: a shorter time step");
@@ -82,13 +82,18 @@ namespace {
 			return largest;
 		}
 
-		/// Water over volume of the pore of water with gas that has least of it; now, or at the end of a trial.
-		double leastWater(const DisplacementTrial* trial) const
+		/// Of all pores that hold both fluids, the least that is left of what they lose, over their volume: of the water where gas comes in, of the gas
+		/// where grains close in on a pore of gas that holds water, too. Now (null), or at the end of a trial.
+		double leastLeft(const DisplacementTrial* trial) const
 		{
 			double least = 1;
-			for (std::size_t i = 0; i < volume.size(); ++i)
-				if (!network.pores[i].isGas && (trial ? trial->gas[i] : network.pores[i].gas) > 0)
-					least = std::min(least, (trial ? trial->water[i] : network.pores[i].water) / volume[i]);
+			for (std::size_t i = 0; i < volume.size(); ++i) {
+				const auto&  pore  = network.pores[i];
+				const double water = trial ? trial->water[i] : pore.water, gas = trial ? trial->gas[i] : pore.gas;
+				if (pore.isGas && pore.water > 0) least = std::min(least, gas / volume[i]);
+				else if (!pore.isGas && gas > 0)
+					least = std::min(least, water / volume[i]);
+			}
 			return least;
 		}
 
@@ -128,7 +133,13 @@ namespace {
 		{
 			for (std::size_t i = 0; i < volume.size(); ++i) {
 				auto& pore = network.pores[i];
-				if (pore.isGas || pore.gas == 0 || pore.water > full * volume[i]) continue;
+				if (pore.isGas && pore.water > 0 && pore.gas <= full * volume[i]) {
+					pore.isGas = false;
+					pore.fixedPressure.reset();
+					step.lost.push_back({ static_cast<int>(i), time });
+					continue;
+				}
+				if (pore.isGas || pore.gas <= full * volume[i] || pore.water > full * volume[i]) continue;
 				pore.isGas = true;
 				pore.pressure += std::exchange(pore.held, 0);
 				pore.source = 0; // of water

@@ -38,6 +38,7 @@ struct DisplacementStep {
 	std::vector<double>     supply;  ///< from outside into the pores of fixed pressure, mean over the step [m^3/s, as amount]
 	std::vector<GasEntry>   entries; ///< in the order of time
 	std::vector<PoreFilled> filled;  ///< in the order of time
+	std::vector<PoreFilled> lost;    ///< pores of gas that grains closed until the water in them had all the room
 	FlowLedger              water, gas; ///< [m^3, as amounts]
 	int                     parts      = 0; ///< that the step was divided into
 	int                     iterations = 0; ///< of Newton's method, all parts together

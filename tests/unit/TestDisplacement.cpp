@@ -172,6 +172,27 @@ TEST(Displacement, LockedWaterDrainsThroughFilms)
 	EXPECT_NEAR((gone - locked) * 0.5 * network.filmConductance, 1, 0.02);
 }
 
+TEST(Displacement, GasLeavesAPoreThatItsWaterFills)
+{
+	// Grains have closed in on a pore of gas to 0.85, it holds 0.9 of water: the gas goes to its neighbour, at pressure 1, and the
+	// water is squeezed, p = K_f (0.9/0.85 - 1), but for what is left of the gas, 1e-6 of the pore at most, 1e-6 K_f.
+	TwoFluids fluids;
+	fluids.datum = 2, fluids.waterBulkModulus = 100, fluids.gasViscosity = 1e-3;
+	TwoFluidNetwork network;
+	network.fluids = fluids;
+	network.pores  = { gasPore(fluids, 1, 1), gasPore(fluids, 0.1, 1) };
+	network.pores[0].fixedPressure = 1;
+	network.pores[1].volume = 0.85, network.pores[1].water = 0.9;
+	network.throats.push_back({ 0, 1, 1, 200 });
+	PressureSolver solver;
+	const auto     step = displace(network, nullptr, 1, solver);
+	expectKept(step);
+	ASSERT_EQ(step.lost.size(), 1u);
+	EXPECT_FALSE(network.pores[1].isGas);
+	EXPECT_GE(network.pores[1].gas, 0);
+	EXPECT_NEAR(network.pores[1].pressure, 100 * (0.9 / 0.85 - 1), 1e-4);
+}
+
 TEST(Displacement, ClosedGasExpandsAtConstantTemperature)
 {
 	// A reservoir of volume 1 at gauge pressure 1 (absolute 3) opens into a chamber of volume 2 at gauge pressure 0 (absolute 2):
