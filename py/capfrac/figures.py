@@ -200,7 +200,7 @@ def _drawSample(axes, s, points, forces, bonds, dots, scale):
             widths = FORCE_WIDTH * radius * np.minimum(np.abs(s.normalForce[chosen]) / scale, FORCE_LIMIT)
             axes.add_collection(LineCollection(s.contactEnds[chosen], colors=COLOURS[colour], linewidths=widths, capstyle="round", zorder=layer))
     if bonds and len(s.brokenBonds):
-        axes.add_collection(LineCollection(_bondStrokes(s), colors=COLOURS["broken"], linewidths=_strokeWidth(radius), capstyle="round", zorder=6))
+        axes.add_collection(LineCollection(bondStrokes(s), colors=COLOURS["broken"], linewidths=_strokeWidth(radius), capstyle="round", zorder=6))
     axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, edgecolor=COLOURS["wall"], linewidth=1.2,
                              zorder=7, clip_on=False))
     _drawInlet(axes, s, points)
@@ -234,7 +234,7 @@ def _gasDots(s, gas):
     return np.array([best[d][1] for d in order]).reshape(-1, 2), np.array([best[d][0] for d in order])
 
 
-def _bondStrokes(s):
+def bondStrokes(s):
     """Short strokes across the broken contacts, half way between the surfaces of the two bodies."""
     ends = s.endsOf(s.brokenBonds)
     known = np.all(np.isfinite(ends), axis=(1, 2))

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.collections import LineCollection, PatchCollection, PolyCollection
 from matplotlib.patches import Circle, Rectangle
 
-from capfrac.figures import COLOURS, _bondStrokes, newFigure, quantity, saveFigure
+from capfrac.figures import COLOURS, bondStrokes, newFigure, quantity, saveFigure
 from capfrac.fracture import orientation, stress, throats
 
 #: Colours of apertures, light to dark, and of stress: brown compression and green tension, as the contact forces.
@@ -30,7 +30,7 @@ def drawFracture(shot, found, path, advance=None):
         colourBar(figure, bar, colours)
         _scaleBar(axes, shot)
         side = (width + 0.75) / total[0]
-        drawRose(figure.add_axes([side, 1 - 2.35 / total[1], 2.2 / total[0], 1.75 / total[1]], projection="polar"), *_steps(found))
+        drawRose(figure.add_axes([side, 1 - 2.35 / total[1], 2.2 / total[0], 1.75 / total[1]], projection="polar"), *orientation.branchSteps(found))
         if advance is not None and advance["event"]:
             _drawAdvance(figure.add_axes([side, 0.72 / total[1], 2.15 / total[0], min(2.0, height - 2.5) / total[1]]), found, advance)
         saveFigure(figure, path)
@@ -65,7 +65,7 @@ def drawCrack(axes, shot, found, points, largest=None):
     order = np.argsort(aperture[opened])
     axes.add_collection(LineCollection(lines[opened][order], colors=colours.to_rgba(np.maximum(aperture[opened][order], 0.1)), linewidths=0.45 * radius,
                                        zorder=4, capstyle="round"))
-    strokes = _bondStrokes(shot)
+    strokes = bondStrokes(shot)
     axes.add_collection(LineCollection(strokes, colors=COLOURS["broken"], linewidths=0.2 * radius, zorder=5, capstyle="butt"))
     for number, branch in enumerate(found.fractureBranches, start=1):
         axes.plot(*branch.path.T, color=_PATH, linewidth=0.16 * radius, zorder=6)
@@ -94,12 +94,6 @@ def _scaleBar(axes, shot):
     y = bottom - 0.03 * (right - left)
     axes.plot([right - length, right], [y, y], color="black", linewidth=1.6, solid_capstyle="butt", clip_on=False)
     axes.text(right - 1.05 * length, y, quantity(length, "m"), ha="right", va="center", fontsize=8)
-
-
-def _steps(found):
-    from capfrac.fracture.report import branchSteps
-
-    return branchSteps(found)
 
 
 def drawRose(axes, angles, lengths, sectors=12):
@@ -210,7 +204,7 @@ def drawFractures(panels, path, columns=3, width=2.6, rose=True, titles=None):
             _scaleBar(axes, shot)
         colourBar(figure, figure.add_axes([0.15 / total[0], 0.38 / total[1], 2.6 / total[0], 0.08 / total[1]]), colours)
         if rose:
-            steps = [_steps(found) for _, found in panels]
+            steps = [orientation.branchSteps(found) for _, found in panels]
             drawRose(figure.add_axes([(total[0] - room + 0.25) / total[0], 0.5 - 0.75 / total[1], 1.8 / total[0], 1.6 / total[1]], projection="polar"),
                      *(np.concatenate([s[i] for s in steps]) for i in (0, 1)))
         saveFigure(figure, path)

@@ -15,6 +15,9 @@ import numpy as np
 
 from capfrac.errors import CaseError
 
+#: Length of a step along a branch when its directions are measured, in mean grain diameters [-]: beyond the zigzag of the pores.
+STEP = 3.0
+
 
 def orientationVector(angles, weights=None):
     """T = sum w exp(2 i theta) / sum w [-], complex, of axial ``angles`` [degrees] with ``weights`` >= 0 (all 1); NaN without weight."""
@@ -95,3 +98,9 @@ def rose(angles, weights, sectors=12):
     turned = (np.asarray(angles, dtype=float) + half) % 180
     sums, edges = np.histogram(turned, bins=sectors, range=(0, 180), weights=weights)
     return edges - half, sums
+
+
+def branchSteps(found):
+    """Directions [degrees] and lengths [m] of the steps of ``STEP`` diameters along the fracture branches of a :class:`~capfrac.fracture.graph.Fracture`."""
+    steps = [chords(b.path, b.distance, STEP * found.diameter) for b in found.fractureBranches]
+    return tuple(np.concatenate([s[k] for s in steps]) if steps else np.array([]) for k in (0, 1))

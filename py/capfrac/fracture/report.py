@@ -15,8 +15,6 @@ from capfrac import snapshot
 from capfrac.errors import CaseError, RunFolderError
 from capfrac.fracture import figures, graph, orientation, stress, throats
 
-#: Length of a step along a branch when its directions are measured, in mean grain diameters [-]: beyond the zigzag of the pores.
-STEP = 3.0
 #: Distances from the inlet at which branches are counted, in mean grain diameters [-].
 DISTANCES = (2.0, 4.0, 6.0, 8.0, 10.0, 12.0)
 #: Files that :func:`reportRun` leaves in a run folder.
@@ -80,12 +78,6 @@ def _branchLines(found):
     """Directions [degrees] and lengths [m] of the lines from root to tip of the fracture branches."""
     lines = np.array([b.path[-1] - b.path[0] for b in found.fractureBranches]).reshape(-1, 2)
     return np.degrees(np.arctan2(lines[:, 1], lines[:, 0])) % 180, np.hypot(lines[:, 0], lines[:, 1])
-
-
-def branchSteps(found):
-    """Directions [degrees] and lengths [m] of the steps of ``STEP`` diameters along the fracture branches."""
-    steps = [orientation.chords(b.path, b.distance, STEP * found.diameter) for b in found.fractureBranches]
-    return tuple(np.concatenate([s[k] for s in steps]) if steps else np.array([]) for k in (0, 1))
 
 
 def _orientation(angles, weights):
