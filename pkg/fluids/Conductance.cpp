@@ -1,6 +1,7 @@
 #include "Conductance.hpp"
 
 #include "EntryPressure.hpp"
+#include "Refusal.hpp"
 
 #include <cmath>
 #include <sstream>
@@ -9,29 +10,21 @@ namespace capfrac {
 
 namespace {
 
-	[[noreturn]] void refuse(const char* what, double value, const char* allowed)
-	{
-		std::ostringstream text;
-		text.precision(10);
-		text << what << " = " << value << ", allowed: " << allowed;
-		throw ConductanceError(text.str());
-	}
-
 	// Written so that NaN and infinity fail every test.
 	void checkPositive(const char* what, double value)
 	{
-		if (!(value > 0 && std::isfinite(value))) refuse(what, value, "> 0");
+		if (!(value > 0 && std::isfinite(value))) refuse<ConductanceError>(what, value, "> 0");
 	}
 
 	void checkNotNegative(const char* what, double value)
 	{
-		if (!(value >= 0 && std::isfinite(value))) refuse(what, value, ">= 0");
+		if (!(value >= 0 && std::isfinite(value))) refuse<ConductanceError>(what, value, ">= 0");
 	}
 
 	void checkThroat(double gap, double r)
 	{
 		checkPositive("mean radius of the throat [m]", r);
-		if (!std::isfinite(gap)) refuse("gap of the throat [m]", gap, "a finite number");
+		if (!std::isfinite(gap)) refuse<ConductanceError>("gap of the throat [m]", gap, "a finite number");
 	}
 
 	/// Where the fits of C~ meet, in e.
@@ -116,11 +109,11 @@ double shapeFactor(double gap, double r)
 
 double plateAperture(double gap, double normalForce, const PlateAperture& plates)
 {
-	if (!std::isfinite(gap)) refuse("gap of the throat [m]", gap, "a finite number");
+	if (!std::isfinite(gap)) refuse<ConductanceError>("gap of the throat [m]", gap, "a finite number");
 	checkNotNegative("normal force of the contact [N]", normalForce);
 	checkNotNegative("residual aperture [m]", plates.residual);
 	checkPositive("force that halves the aperture [N]", plates.halvingForce);
-	if (!(plates.gapMultiplier >= 0 && plates.gapMultiplier <= 1)) refuse("multiplier of the gap [-]", plates.gapMultiplier, "0 to 1");
+	if (!(plates.gapMultiplier >= 0 && plates.gapMultiplier <= 1)) refuse<ConductanceError>("multiplier of the gap [-]", plates.gapMultiplier, "0 to 1");
 	if (gap > 0) return plates.residual + plates.gapMultiplier * gap;
 	return plates.residual * plates.halvingForce / (normalForce + plates.halvingForce);
 }

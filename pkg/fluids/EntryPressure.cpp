@@ -1,4 +1,5 @@
 #include "EntryPressure.hpp"
+#include "Refusal.hpp"
 
 #include <boost/math/tools/roots.hpp>
 
@@ -9,28 +10,20 @@ namespace capfrac {
 
 namespace {
 
-	[[noreturn]] void refuse(const char* what, double value, const char* allowed)
-	{
-		std::ostringstream text;
-		text.precision(10);
-		text << what << " = " << value << ", allowed: " << allowed;
-		throw EntryLawError(text.str());
-	}
-
 	// Written so that NaN fails every test.
 	void checkThroat(double gap, double r)
 	{
-		if (!(r > 0)) refuse("mean radius of the throat [m]", r, "> 0");
+		if (!(r > 0)) refuse<EntryLawError>("mean radius of the throat [m]", r, "> 0");
 		if (!(gap > -2 * r)) {
 			std::ostringstream allowed;
 			allowed << "> " << -2 * r << " (minus twice the mean radius): the throat is closed";
-			refuse("gap of the throat [m]", gap, allowed.str().c_str());
+			refuse<EntryLawError>("gap of the throat [m]", gap, allowed.str());
 		}
 	}
 
 	void checkTension(double tension)
 	{
-		if (!(tension > 0)) refuse("interfacial tension [N/m]", tension, "> 0");
+		if (!(tension > 0)) refuse<EntryLawError>("interfacial tension [N/m]", tension, "> 0");
 	}
 
 	/// Water wedge between two circles of radius r whose centres are 2 halfBase apart, cut off by a
@@ -81,14 +74,14 @@ double inscribedRadius(double gap, double r)
 double inscribedSphereEntryPressure(double gap, double r, double tension, double contactAngle)
 {
 	checkTension(tension);
-	if (!(contactAngle >= 0 && contactAngle < M_PI / 2)) refuse("contact angle [rad]", contactAngle, "0 <= angle < pi/2 (water wets)");
+	if (!(contactAngle >= 0 && contactAngle < M_PI / 2)) refuse<EntryLawError>("contact angle [rad]", contactAngle, "0 <= angle < pi/2 (water wets)");
 	return 2 * tension * std::cos(contactAngle) / inscribedRadius(gap, r);
 }
 
 double mayerStowePrincenEntryPressure(double gap, double r, double tension, double contactAngle)
 {
 	checkTension(tension);
-	if (contactAngle != 0) refuse("contact angle [rad]", contactAngle, "0 (the mayerStowePrincen law is for perfect wetting)");
+	if (contactAngle != 0) refuse<EntryLawError>("contact angle [rad]", contactAngle, "0 (the mayerStowePrincen law is for perfect wetting)");
 	// The menisci fit between two limits: so small that they bridge the gap just at its narrowest, and
 	// so large that the four of them meet, at the inscribed sphere.
 	const double widest   = inscribedRadius(gap, r);

@@ -1,4 +1,5 @@
 #include "EquationOfState.hpp"
+#include "Refusal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,24 +11,16 @@ namespace {
 
 	constexpr double gasConstant = 8.31446261815324; // [J/(mol K)], exact in the SI
 
-	[[noreturn]] void refuse(const std::string& what, double value, const std::string& allowed)
-	{
-		std::ostringstream text;
-		text.precision(10);
-		text << what << " = " << value << ", allowed: " << allowed;
-		throw GasLawError(text.str());
-	}
-
 	void requirePositive(const std::string& what, double value)
 	{
-		if (!(value > 0 && std::isfinite(value))) refuse(what, value, "finite and > 0");
+		if (!(value > 0 && std::isfinite(value))) refuse<GasLawError>(what, value, "finite and > 0");
 	}
 
 	void checkColumn(const std::string& what, const std::vector<double>& column)
 	{
 		for (std::size_t i = 0; i < column.size(); ++i) {
 			requirePositive(what, column[i]);
-			if (i > 0 && !(column[i] > column[i - 1])) refuse(what, column[i], "ascending values");
+			if (i > 0 && !(column[i] > column[i - 1])) refuse<GasLawError>(what, column[i], "ascending values");
 		}
 	}
 
@@ -43,7 +36,7 @@ namespace {
 	/// The table read from the column `x` to the column `y`; in proportion below its first pair.
 	double lookUp(const std::vector<double>& x, const std::vector<double>& y, double value, const std::string& what)
 	{
-		if (value > x.back()) refuse(what, value, "up to the last of the table, " + std::to_string(x.back()));
+		if (value > x.back()) refuse<GasLawError>(what, value, "up to the last of the table, " + std::to_string(x.back()));
 		if (value < x.front()) return y.front() * value / x.front();
 		const auto i = pieceOf(x, value);
 		return y[i] + (y[i + 1] - y[i]) * (value - x[i]) / (x[i + 1] - x[i]);

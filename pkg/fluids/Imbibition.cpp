@@ -1,5 +1,6 @@
 #include "Imbibition.hpp"
 #include "EntryPressure.hpp"
+#include "Refusal.hpp"
 
 #include <limits>
 #include <sstream>
@@ -8,20 +9,12 @@ namespace capfrac {
 
 namespace {
 
-	[[noreturn]] void refuse(const char* what, double value, const char* allowed)
-	{
-		std::ostringstream text;
-		text.precision(10);
-		text << what << " = " << value << ", allowed: " << allowed;
-		throw EntryLawError(text.str());
-	}
-
 	// Written so that NaN fails every test.
 	void checkBody(double radius, double tension, double contactAngle)
 	{
-		if (!(radius > 0)) refuse("radius of the largest sphere [m]", radius, "> 0");
-		if (!(tension > 0)) refuse("interfacial tension [N/m]", tension, "> 0");
-		if (!(contactAngle >= 0 && contactAngle < M_PI / 2)) refuse("contact angle [rad]", contactAngle, "0 <= angle < pi/2 (water wets)");
+		if (!(radius > 0)) refuse<EntryLawError>("radius of the largest sphere [m]", radius, "> 0");
+		if (!(tension > 0)) refuse<EntryLawError>("interfacial tension [N/m]", tension, "> 0");
+		if (!(contactAngle >= 0 && contactAngle < M_PI / 2)) refuse<EntryLawError>("contact angle [rad]", contactAngle, "0 <= angle < pi/2 (water wets)");
 	}
 
 	bool inside(const std::vector<Vec2>& polygon, Vec2 p)
@@ -101,7 +94,7 @@ double snapOffPressure(double radius, double tension, double contactAngle)
 {
 	checkBody(radius, tension, contactAngle);
 	if (!(contactAngle + snapOffCorner < M_PI / 2))
-		refuse("contact angle [rad]", contactAngle, "< pi/4 with snap-off (films in corners of 45 degrees swell below that only)");
+		refuse<EntryLawError>("contact angle [rad]", contactAngle, "< pi/4 with snap-off (films in corners of 45 degrees swell below that only)");
 	return tension / radius * (std::cos(contactAngle) - std::sin(contactAngle) * std::tan(snapOffCorner));
 }
 

@@ -1,4 +1,5 @@
 #include "MeniscusForce.hpp"
+#include "Refusal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,28 +9,20 @@ namespace capfrac {
 
 namespace {
 
-	[[noreturn]] void refuse(const char* what, double value, const char* allowed)
-	{
-		std::ostringstream text;
-		text.precision(10);
-		text << what << " = " << value << ", allowed: " << allowed;
-		throw MeniscusError(text.str());
-	}
-
 	// Written so that NaN fails every test.
 	void requirePositive(const char* what, double value)
 	{
-		if (!(value > 0 && std::isfinite(value))) refuse(what, value, "finite and > 0");
+		if (!(value > 0 && std::isfinite(value))) refuse<MeniscusError>(what, value, "finite and > 0");
 	}
 
 	void check(const Menisci& menisci, double r1, double r2, double thickness)
 	{
 		requirePositive("interfacial tension [N/m]", menisci.tension);
 		if (!(menisci.contactAngle >= 0 && menisci.contactAngle < M_PI / 2))
-			refuse("contact angle [rad]", menisci.contactAngle, "0 <= angle < pi/2 (water wets)");
+			refuse<MeniscusError>("contact angle [rad]", menisci.contactAngle, "0 <= angle < pi/2 (water wets)");
 		requirePositive("chi [-]", menisci.chi);
 		requirePositive("bridge volume over the cube of the radius [-]", menisci.bridgeVolume);
-		if (!std::isfinite(menisci.ruptureGap)) refuse("rupture gap over the radius [-]", menisci.ruptureGap, "finite");
+		if (!std::isfinite(menisci.ruptureGap)) refuse<MeniscusError>("rupture gap over the radius [-]", menisci.ruptureGap, "finite");
 		requirePositive("radius [m]", r1);
 		requirePositive("radius [m]", r2);
 		requirePositive("thickness [m]", thickness);
@@ -56,7 +49,7 @@ namespace {
 
 	double requireNumber(double gap)
 	{
-		if (!std::isfinite(gap)) refuse("gap [m]", gap, "finite");
+		if (!std::isfinite(gap)) refuse<MeniscusError>("gap [m]", gap, "finite");
 		return gap;
 	}
 
