@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace capfrac {
@@ -35,7 +36,8 @@ namespace {
 				DisplacementPart part(network, volume, skeleton, gradient, dt, solver);
 				double           h     = left;
 				const auto       trial = nextPart(part, h);
-				accept(part, trial, h);
+				if (!trial) continue; // a pore has changed its phase at once
+				accept(part, *trial, h);
 				left = h < left ? left - h : 0;
 				turnFull();
 			}
@@ -45,8 +47,9 @@ namespace {
 		}
 
 	private:
-		/// The trial of a part, `h` shortened until no pore gains too much gas, and none loses more water than it has.
-		DisplacementTrial nextPart(DisplacementPart& part, double& h)
+		/// The trial of a part, `h` shortened until no pore gains too much gas, and none loses more of a fluid than it has. Nothing where that
+		/// would leave no time at all.
+		std::optional<DisplacementTrial> nextPart(DisplacementPart& part, double& h)
 		{
 			auto trial = attempt(part, h);
 			for (double gain; (gain = largestGain(trial)) > options.maxFilling;)
@@ -61,9 +64,30 @@ namespace {
 				const double now = leastLeft(&trial);
 				if (jumps || (now >= 0 && now <= full)) break;
 				(now > 0 ? low : high) = h, (now > 0 ? before : after) = now;
-				if (high < 1e-12 * dt) throw FlowError("a pore fills faster than the time step can be divided; allowed: a shorter time step");
+				if (high < 1e-12 * dt) {
+					turnAtOnce(trial);
+					return {};
+				}
 			}
 			return trial;
+		}
+
+		/// Grains have closed a pore since the last step until one of its fluids alone has no room in it (one at a prescribed pressure, mostly): the pore
+		/// that lacks most is from now on one of the other phase. What it holds stays, under the pressure that follows.
+		void turnAtOnce(const DisplacementTrial& trial)
+		{
+			int    worst = 0;
+			double least = 0;
+			for (std::size_t i = 0; i < volume.size(); ++i)
+				if (const double left = (network.pores[i].isGas ? trial.gas[i] : trial.water[i]) / volume[i]; left < least) worst = static_cast<int>(i), least = left;
+			auto& pore = network.pores[worst];
+			if (turned.empty()) turned.assign(volume.size(), 0);
+			if (std::exchange(turned[worst], 1)) throw FlowError("pore " + std::to_string(worst) + " fills faster than the time step can be divided; allowed: a shorter time step", worst);
+			(pore.isGas ? step.lost : step.filled).push_back({ worst, time });
+			pore.isGas = !pore.isGas;
+			pore.pressure += std::exchange(pore.held, 0);
+			pore.source = 0;
+			pore.fixedPressure.reset();
 		}
 
 		DisplacementTrial attempt(DisplacementPart& part, double h)
@@ -155,6 +179,7 @@ namespace {
 		DisplacementOptions       options;
 		std::vector<VolumeEntry>  gradient;
 		std::vector<double>       volume;
+		std::vector<std::uint8_t> turned; ///< pores that changed their phase at once in this step
 		double                    time = 0;
 		DisplacementStep          step;
 	};

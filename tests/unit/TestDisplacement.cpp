@@ -193,6 +193,21 @@ TEST(Displacement, GasLeavesAPoreThatItsWaterFills)
 	EXPECT_NEAR(network.pores[1].pressure, 100 * (0.9 / 0.85 - 1), 1e-4);
 }
 
+TEST(Displacement, APoreThatIsTooSmallForItsGasIsOneOfGas)
+{
+	// A pore of water at a prescribed pressure, nearly full of gas, that grains have closed to less than the gas takes.
+	auto network                  = tube(stiffFluids(1, 1e-3), 2, 3, 1);
+	network.pores[2].gas          = 0.99;
+	network.pores[2].water        = 0.01;
+	network.pores[2].volume       = 0.9;
+	PressureSolver solver;
+	const auto     step = displace(network, nullptr, 1e-3, solver);
+	expectKept(step);
+	EXPECT_TRUE(network.pores[2].isGas);
+	for (const auto& pore : network.pores)
+		EXPECT_TRUE(pore.gas >= 0 && pore.water >= 0);
+}
+
 TEST(Displacement, ClosedGasExpandsAtConstantTemperature)
 {
 	// A reservoir of volume 1 at gauge pressure 1 (absolute 3) opens into a chamber of volume 2 at gauge pressure 0 (absolute 2):
