@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace capfrac {
@@ -82,7 +83,13 @@ namespace {
 				if (const double left = (network.pores[i].isGas ? trial.gas[i] : trial.water[i]) / volume[i]; left < least) worst = static_cast<int>(i), least = left;
 			auto& pore = network.pores[worst];
 			if (turned.empty()) turned.assign(volume.size(), 0);
-			if (std::exchange(turned[worst], 1)) throw FlowError("pore " + std::to_string(worst) + " fills faster than the time step can be divided; allowed: a shorter time step", worst);
+			if (std::exchange(turned[worst], 1)) {
+				std::ostringstream text;
+				text << "pore " << worst << ", of " << volume[worst] << " m^3 with " << pore.water << " m^3 of water and " << pore.gas << " m^3 of gas at " << pore.pressure
+				     << " Pa, fills faster than the time step can be divided (it would have " << trial.water[worst] << " and " << trial.gas[worst] << " m^3 at " << trial.pressure[worst]
+				     << " Pa); allowed: a shorter time step";
+				throw FlowError(text.str(), worst);
+			}
 			(pore.isGas ? step.lost : step.filled).push_back({ worst, time });
 			pore.isGas = !pore.isGas;
 			pore.pressure += std::exchange(pore.held, 0);

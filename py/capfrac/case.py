@@ -81,6 +81,7 @@ KEYS = (
     Key("supply", "historyInterval", int, "-", 100, "Time steps between two rows of history.csv; 0: a row per level.", low=0),
     Key("network", "poreMode", str, "-", "domain", "What a pore is.", choices=("domain", "triangle")),
     notNegative("network", "mergeTolerance", "-", 1e-3, "Gap beyond which grains do not touch, in smallest radii."),
+    positive("network", "closedPore", "-", 1e-3, "With water.flow = 'solved': a pore smaller than this share of the smallest grain's area is joined to its neighbour across the widest throat."),
     positive("network", "openingThreshold", "-", 0.01, "Growth of a gap, in mean radii, beyond which its throat counts as opened."),
     Key("network", "checkInvariants", bool, "-", True, "Check the bookkeeping of gas and water after each avalanche."),
     Key("output", "pressures", list, "Pa", (), "Capillary pressures at which snapshots are taken, besides start, first opened throat (initiation), breakthrough and end."),

@@ -120,7 +120,7 @@ def _startGas(case):
         reservoirVolume=supply["reservoirVolume"], historyInterval=supply["historyInterval"],
         **{name: gas[name] for name in ("trapping", "imbibition", "snapOff", "filmConductance", "gasDensity")},
         waterFlow=water["flow"], viscosity=water["viscosity"], bulkModulus=water["bulkModulus"], conductanceFactor=water["conductanceFactor"], gasViscosity=gas["viscosity"],
-        fluidDensity=gas["waterDensity"], gravity=tuple(gas["gravity"]), poreMode=network["poreMode"], mergeTolerance=network["mergeTolerance"],
+        fluidDensity=gas["waterDensity"], gravity=tuple(gas["gravity"]), poreMode=network["poreMode"], mergeTolerance=network["mergeTolerance"], closedPore=network["closedPore"],
         openingThreshold=network["openingThreshold"], checkInvariants=network["checkInvariants"],
         unbalancedTolerance=ramp["unbalanced"], minLevelSteps=ramp["minLevelSteps"], invasionInterval=ramp["invasionInterval"], maxLevelSteps=ramp["maxLevelSteps"])
     if case["cohesion"]["menisci"] != "none":
