@@ -104,13 +104,11 @@ void GasInvasionEngine::avalanche()
 	const auto network  = drainageNetwork();
 	const auto drainage = capfrac::drain(network, capillaryPressure(), trapping, invasionInterval > 0 || pressureFollows() ? 1 : std::numeric_limits<int>::max());
 	nTrappedWater       = static_cast<int>(drainage.trapped.size());
-	nDetachedGas        = 0;
-	for (int d = 0; d < domains.count; ++d)
-		nDetachedGas += network.gas[d] && !network.injected[d];
+	countDetachedGas(network);
 	if (checkInvariants) checkInvariantsNow(network, drainage);
 	if (drainage.steps.empty()) return;
 	for (const auto& step : drainage.steps)
-		if (step.domain >= 0) record(network.throats[step.throat].edge, step.domain, throatEntryPressure(network.throats[step.throat].edge));
+		if (step.domain >= 0) record(network.throats[step.throat].edge, step.domain);
 		else
 			reopen(network.throats[step.throat].edge);
 	for (const auto& step : drainage.steps)
@@ -119,6 +117,13 @@ void GasInvasionEngine::avalanche()
 	lastEventIter = static_cast<int>(scene->iter);
 	gasSaturation = saturation();
 	noteBreakthrough();
+}
+
+void GasInvasionEngine::countDetachedGas(const capfrac::DrainageNetwork& network)
+{
+	nDetachedGas = 0;
+	for (int d = 0; d < domains.count; ++d)
+		nDetachedGas += network.gas[d] && !network.injected[d];
 }
 
 void GasInvasionEngine::fillWithGas(int domain)
@@ -132,14 +137,14 @@ void GasInvasionEngine::fillWithGas(int domain)
 	}
 }
 
-void GasInvasionEngine::record(int e, int domain, Real entryPressure)
+void GasInvasionEngine::record(int e, int domain)
 {
 	const auto& edge   = mesh.edges[e];
 	const int   first  = domains.first[domain];
 	const auto  ids    = std::make_pair(reader.bodyOf(edge.a), reader.bodyOf(edge.b));
 	const bool  broken = bondBroken(ids.first, ids.second);
 	const Real  growth = gapGrowth(e);
-	const Real  r = mesh.isWall(edge.b) ? reader.grains[edge.a].radius : 0.5 * (reader.grains[edge.a].radius + reader.grains[edge.b].radius);
+	const Real  r      = throatShape(e).second;
 	Real        volume = 0;
 	int         cells  = 0;
 	capfrac::Vec2 place;
@@ -153,7 +158,7 @@ void GasInvasionEngine::record(int e, int domain, Real entryPressure)
 	eventThroats.push_back(Vector3i(ids.first, ids.second, (broken ? 1 : 0) | (broken || growth > openingThreshold * r ? 2 : 0)));
 	eventCounts.push_back(Vector3i(static_cast<int>(scene->iter), level, cells));
 	Vector6r numbers;
-	numbers << scene->time, gasPressure, entryPressure, gaps[e], growth, volume;
+	numbers << scene->time, gasPressure, throatEntryPressure(e), gaps[e], growth, volume;
 	eventNumbers.push_back(numbers);
 	eventPlaces.push_back(Vector2r(place.x / cells, place.y / cells));
 	++nEvents;

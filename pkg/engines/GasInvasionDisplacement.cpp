@@ -79,22 +79,20 @@ Real GasInvasionEngine::reservoirSize() const { return math::max(reservoirVolume
 /// The inlet was filled by volume: its gas has the pressure of the reservoir.
 void GasInvasionEngine::startDisplacement()
 {
-	const auto fluids = twoFluids();
-	const Real ratio  = capfrac::gasRatio(fluids, gasPressure);
+	const Real ratio = capfrac::gasRatio(twoFluids(), gasPressure), density = densityAt(0);
 	waterIn = 0, gasIn = 0, initialWater = thickness * contents.totalWater();
+	cellState.assign(mesh.cells.size(), waterPressure);
 	const auto voidsNow = currentVoids();
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		if (contents.phase[c] != capfrac::Phase::gas) continue;
+		cellState[c]        = gasPressure;
 		contents.gas[c]     = voidsNow[c] * ratio;
-		contents.gasMass[c] = densityAt(0) * contents.gas[c];
+		contents.gasMass[c] = density * contents.gas[c];
 		gasIn += thickness * contents.gas[c];
 	}
 	reservoirFilled = reservoirVolume, reservoirMass = densityAt(gasPressure) * reservoirSize();
 	initialGasMass = injectedGasMass = gasMassIn();
 	massStarted                      = true;
-	cellState.assign(mesh.cells.size(), waterPressure);
-	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-		if (contents.phase[c] == capfrac::Phase::gas) cellState[c] = gasPressure;
 	cellPressure = cellState;
 	cellHeld.assign(mesh.cells.size(), 0);
 	edgeAdvancing.assign(mesh.edges.size(), 0);
@@ -110,39 +108,33 @@ void GasInvasionEngine::displaceWater()
 	if (reservoirVolume != reservoirFilled) attachReservoir();
 	describePores();
 	joinPhases();
-	auto                       network = twoFluidNetwork();
-	const auto                 before  = network.pores.back().gas;
-	capfrac::DisplacementStep  done;
-	try {
-		if (grainsMove()) {
-			const auto grains = skeleton();
-			done              = capfrac::displace(network, &grains, scene->dt, solver, { maxFilling });
-		} else
-			done = capfrac::displace(network, nullptr, scene->dt, solver, { maxFilling });
-	} catch (const capfrac::FlowError& e) {
-		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what() + placeOf(e.pore));
-	} catch (const std::exception& e) {
-		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what());
-	}
+	auto       network = twoFluidNetwork();
+	const auto before  = network.pores.back().gas;
+	const auto done    = namingPores([&] {
+		if (!grainsMove()) return capfrac::displace(network, nullptr, scene->dt, solver, { maxFilling });
+		const auto grains = skeleton();
+		return capfrac::displace(network, &grains, scene->dt, solver, { maxFilling });
+	});
 	waterIn += done.water.in - done.water.out;
 	gasIn += done.gas.in - done.gas.out - (network.pores.back().gas - before);
-	reservoirMass = densityAt(0) * network.pores.back().gas; // and the books of GasInvasionSupply.cpp
-	injectedGasMass += densityAt(0) * (done.gas.in - done.gas.out);
+	const Real density = densityAt(0); // and the books of GasInvasionSupply.cpp
+	reservoirMass      = density * network.pores.back().gas;
+	injectedGasMass += density * (done.gas.in - done.gas.out);
 	gasPressure = network.pores.back().pressure;
 	massDefect += done.water.defect() + done.gas.defect();
 	nFactorizations += done.factored;
 	solverIterations = done.iterations;
-	recordEntries(network, done);
+	recordEntries(done);
 	writeBack(network, done);
 }
 
-void GasInvasionEngine::recordEntries(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done)
+void GasInvasionEngine::recordEntries(const capfrac::DisplacementStep& done)
 {
 	for (const auto& entry : done.entries) {
 		const int  e    = edgeOfThroat[entry.throat];
 		const auto edge = mesh.edges[e];
 		const int  cell = poreOfCell[edge.left] == entry.pore ? edge.left : edge.right;
-		record(e, domains.ofCell[cell], network.throats[entry.throat].entryPressure);
+		record(e, domains.ofCell[cell]);
 		lastEventIter = static_cast<int>(scene->iter);
 	}
 }
@@ -161,6 +153,7 @@ void GasInvasionEngine::writeBack(const capfrac::TwoFluidNetwork& network, const
 		if (!pore.isGas && gain * minLevelSteps > restingGain * pore.volume) lastEventIter = static_cast<int>(scene->iter); // gas is on its way
 	}
 	gasSaturation = gas / volume;
+	const Real        density = densityAt(0);
 	std::vector<Real> sum(nPores, 0);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
 		sum[poreOfCell[c]] += math::max(Real(0), voids[c]);
@@ -172,7 +165,7 @@ void GasInvasionEngine::writeBack(const capfrac::TwoFluidNetwork& network, const
 		// in the next step, and must not owe anything then.
 		const Real share  = math::max(Real(0), voids[c]) / (thickness * sum[p]);
 		contents.water[c] = share * pore.water, contents.gas[c] = share * pore.gas;
-		contents.gasMass[c] = densityAt(0) * contents.gas[c];
+		contents.gasMass[c] = density * contents.gas[c];
 		contents.phase[c] = pore.isGas ? capfrac::Phase::gas : capfrac::Phase::water;
 		cellPressure[c]   = done.load[p];
 		cellState[c] = pore.pressure, cellHeld[c] = pore.held;

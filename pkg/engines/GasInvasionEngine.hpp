@@ -74,8 +74,9 @@ private:
 	Real                       entryPressureAtDatum(int edge) const;
 	std::vector<double>        pressuresAtDatum() const;
 	capfrac::Vec2              weightOf(int cell) const;
-	void                     record(int edge, int domain, Real entryPressure);
+	void                     record(int edge, int domain);
 	void                     fillWithGas(int domain);
+	void                     countDetachedGas(const capfrac::DrainageNetwork& network);
 	bool                     touches(int domain, int wall) const;
 	bool                     mayInvade() const;
 	std::vector<int>         inletDomains() const;
@@ -104,7 +105,7 @@ private:
 	std::vector<Real>        bodyPressures() const;
 	void                     displaceWater();
 	void                     writeBack(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done);
-	void                     recordEntries(const capfrac::TwoFluidNetwork& network, const capfrac::DisplacementStep& done);
+	void                     recordEntries(const capfrac::DisplacementStep& done);
 	capfrac::TwoFluids       twoFluids() const;
 	// GasInvasionSupply.cpp: how much gas there is, and its pressure
 	enum class GasControl { pressure, rate, reservoir };
@@ -125,6 +126,8 @@ private:
 	void                     takeWaterOut();
 	void                     shareOut(int cell, Real room, Real share, Real density);
 	std::vector<double>      findCutOffPressures(const capfrac::GasClusters& clusters) const;
+	/// Gas that hangs together: not through throats that are snapped off.
+	capfrac::GasClusters     gasClusters() const { return capfrac::gasClusters(mesh, contents, snapped); }
 	void                     checkMass() const;
 	void                     recordHistory();
 	Real                     connectedGas() const;

@@ -104,9 +104,7 @@ void GasInvasionEngine::recede()
 void GasInvasionEngine::holdCutOffGas()
 {
 	const auto network = drainageNetwork();
-	nDetachedGas       = 0;
-	for (int d = 0; d < domains.count; ++d)
-		nDetachedGas += network.gas[d] && !network.injected[d];
+	countDetachedGas(network);
 	bool synced = false;
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const bool isGas = contents.phase[c] == capfrac::Phase::gas;
@@ -183,7 +181,7 @@ void GasInvasionEngine::drainByFilms()
 		for (int c : domains.cellsOf(cluster.behind))
 			there += thickness * contents.water[c];
 		if (out >= there) {
-			record(network.throats[cluster.throat].edge, cluster.behind, throatEntryPressure(network.throats[cluster.throat].edge));
+			record(network.throats[cluster.throat].edge, cluster.behind);
 			fillWithGas(cluster.behind);
 			entered = true;
 			continue;

@@ -99,7 +99,7 @@ void GasInvasionEngine::settleGas(Real supplied)
 	namingGas([&] {
 		if (!massStarted) startCount();
 		if (reservoirVolume != reservoirFilled) attachReservoir();
-		const auto clusters = capfrac::gasClusters(mesh, contents, snapped);
+		const auto clusters = gasClusters();
 		settleConnected(clusters, room, supplied);
 		settleCutOff(clusters, room);
 		cutOffPressures = findCutOffPressures(clusters);
@@ -222,7 +222,7 @@ Real GasInvasionEngine::pressureOfGas(int cell) const
 	if (contents.held[cell]) return contents.heldPressure[cell];
 	if (!gasCounted() || !massStarted) return gasPressure;
 	// Asked for after loading or remeshing, before a step has balanced the gas again.
-	if (cutOffPressures.size() != mesh.cells.size()) cutOffPressures = namingGas([&] { return findCutOffPressures(capfrac::gasClusters(mesh, contents, snapped)); });
+	if (cutOffPressures.size() != mesh.cells.size()) cutOffPressures = namingGas([&] { return findCutOffPressures(gasClusters()); });
 	return std::isfinite(cutOffPressures[cell]) ? cutOffPressures[cell] : gasPressure;
 }
 

@@ -37,7 +37,7 @@ py::dict GasInvasionEngine::pyGasLedger()
 {
 	pyPrepare();
 	Real injected = injectedGasMass, initial = initialGasMass, sample = thickness * contents.totalGasMass(), reservoir = reservoirMass, cutOff = 0;
-	const auto clusters = capfrac::gasClusters(mesh, contents);
+	const auto clusters = gasClusters();
 	if (gasCounted() && massStarted) {
 		for (std::size_t c = 0; c < clusters.ofCell.size(); ++c)
 			if (clusters.ofCell[c] != 0) cutOff += thickness * contents.gasMass[c];
@@ -58,7 +58,7 @@ py::dict GasInvasionEngine::pyGasLedger()
 /// Volume of the gas in the sample that hangs on the inlet [m^3].
 Real GasInvasionEngine::connectedGas() const
 {
-	const auto clusters = capfrac::gasClusters(mesh, contents);
+	const auto clusters = gasClusters();
 	const auto voids    = currentVoids();
 	Real       volume   = 0;
 	for (std::size_t c = 0; c < voids.size(); ++c)

@@ -113,16 +113,12 @@ void SinglePhaseFlowEngine::describePores()
 void SinglePhaseFlowEngine::advanceFluids()
 {
 	describePores();
-	capfrac::FlowStep done;
-	auto              network = flowNetwork();
-	try {
-		done = step(network);
-		compressGrains(done.growth);
-	} catch (const capfrac::FlowError& e) {
-		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what() + placeOf(e.pore));
-	} catch (const std::exception& e) {
-		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what());
-	}
+	auto       network = flowNetwork();
+	const auto done    = namingPores([&] {
+		auto found = step(network);
+		compressGrains(found.growth);
+		return found;
+	});
 	// A pore has one pressure: its cells share its mass by their voids.
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const int p       = poreOfCell[c];

@@ -56,6 +56,18 @@ protected:
 	/// Forces of the fluid's weight per thickness [N/m], to be added to those of the pores' pressures; no grains: it has none.
 	capfrac::FluidForces weightOfFluid() const;
 	std::string          placeOf(int pore) const;
+	/// Runs `work` on the pores; what it finds wrong is thrown again with the time and the pore's place.
+	template <class Work> auto namingPores(Work work) const
+	{
+		const auto where = [this] { return getClassName() + " " + whenInLoop(*scene); }; // put together only when something is wrong
+		try {
+			return work();
+		} catch (const capfrac::FlowError& e) {
+			throw std::runtime_error(where() + e.what() + placeOf(e.pore));
+		} catch (const std::exception& e) {
+			throw std::runtime_error(where() + e.what());
+		}
+	}
 	void                 checkMotion(const Body& body) const;
 	capfrac::GrainCompression compression() const;
 	void                 compressGrains(const std::vector<double>& growth);

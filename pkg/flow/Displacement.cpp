@@ -81,7 +81,7 @@ namespace {
 			double least = 0;
 			for (std::size_t i = 0; i < volume.size(); ++i)
 				if (const double left = (network.pores[i].isGas ? trial.gas[i] : trial.water[i]) / volume[i]; left < least) worst = static_cast<int>(i), least = left;
-			auto& pore = network.pores[worst];
+			const auto& pore = network.pores[worst];
 			if (turned.empty()) turned.assign(volume.size(), 0);
 			if (std::exchange(turned[worst], 1)) {
 				std::ostringstream text;
@@ -90,7 +90,14 @@ namespace {
 				     << " Pa); allowed: a shorter time step";
 				throw FlowError(text.str(), worst);
 			}
-			(pore.isGas ? step.lost : step.filled).push_back({ worst, time });
+			turn(worst);
+		}
+
+		/// Makes a pore one of the other phase, at the pressure that this phase has in it. What was prescribed of the one does not hold for the other.
+		void turn(int i)
+		{
+			auto& pore = network.pores[i];
+			(pore.isGas ? step.lost : step.filled).push_back({ i, time });
 			pore.isGas = !pore.isGas;
 			pore.pressure += std::exchange(pore.held, 0);
 			pore.source = 0;
@@ -163,19 +170,9 @@ namespace {
 		void turnFull()
 		{
 			for (std::size_t i = 0; i < volume.size(); ++i) {
-				auto& pore = network.pores[i];
-				if (pore.isGas && pore.water > 0 && pore.gas <= full * volume[i]) {
-					pore.isGas = false;
-					pore.fixedPressure.reset();
-					step.lost.push_back({ static_cast<int>(i), time });
-					continue;
-				}
-				if (pore.isGas || pore.gas <= full * volume[i] || pore.water > full * volume[i]) continue;
-				pore.isGas = true;
-				pore.pressure += std::exchange(pore.held, 0);
-				pore.source = 0; // of water
-				pore.fixedPressure.reset();
-				step.filled.push_back({ static_cast<int>(i), time });
+				const auto&  pore = network.pores[i];
+				const double least = full * volume[i];
+				if (pore.isGas ? pore.water > 0 && pore.gas <= least : pore.gas > least && pore.water <= least) turn(static_cast<int>(i));
 			}
 		}
 

@@ -1,8 +1,6 @@
 #include "DisplacementPart.hpp"
 #include "Assembly.hpp"
 
-#include "../network/UnionFind.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -60,14 +58,15 @@ double DisplacementPart::viscosityIn(int throat) const
 
 void DisplacementPart::findLocked()
 {
-	UnionFind                 clusters(static_cast<int>(network.pores.size()));
-	std::vector<std::uint8_t> grounded(network.pores.size(), 0);
+	FlowNetwork water;
+	water.pores.resize(network.pores.size());
+	for (std::size_t i = 0; i < network.pores.size(); ++i)
+		if (!network.pores[i].isGas) water.pores[i].fixedPressure = network.pores[i].fixedPressure;
 	for (const auto& t : network.throats)
-		if (t.conductance > 0 && !network.pores[t.a].isGas && !network.pores[t.b].isGas) clusters.join(t.a, t.b);
+		if (!network.pores[t.a].isGas && !network.pores[t.b].isGas) water.throats.push_back({ t.a, t.b, t.conductance });
+	const auto clusters = findClusters(water);
 	for (std::size_t i = 0; i < network.pores.size(); ++i)
-		if (network.pores[i].fixedPressure && !network.pores[i].isGas) grounded[clusters.find(static_cast<int>(i))] = 1;
-	for (std::size_t i = 0; i < network.pores.size(); ++i)
-		locked.push_back(!network.pores[i].isGas && !grounded[clusters.find(static_cast<int>(i))]);
+		locked.push_back(!network.pores[i].isGas && !clusters.grounded[clusters.ofPore[i]]);
 }
 
 void DisplacementPart::findFlows(DisplacementTrial& trial) const
@@ -264,10 +263,8 @@ DisplacementTrial DisplacementPart::end(double h)
 	for (const auto& pore : network.pores)
 		trial.pressure.push_back(pore.fixedPressure.value_or(pore.pressure));
 	trial.water.resize(n), trial.gas.resize(n), trial.held.resize(n), trial.load.resize(n), trial.supply.resize(n);
-	for (const auto& throat : network.throats)
-		trial.open.push_back(throat.advancing);
 	for (std::size_t t = 0; t < beyond.size(); ++t)
-		if (beyond[t] < 0) trial.open[t] = 0; // gas is on both sides by now
+		trial.open.push_back(network.throats[t].advancing && beyond[t] >= 0); // gas may be on both sides by now
 	for (std::size_t i = 0; i < n; ++i)
 		trial.held[i] = network.pores[i].held;
 	keepOffVacuum(trial);
