@@ -104,6 +104,23 @@ def handScene():
 
 
 @pytest.fixture
+def settledScene(loadSample, handScene):
+    """Builds the settled sample of 60 grains as a scene of grains that stand still; a function (order=None) -> walls (left, right, bottom, top [m]).
+
+    ``order`` renumbers the grains.
+    """
+
+    def build(order=None):
+        loadSample()
+        disks = [(b.state.pos[0], b.state.pos[1], b.shape.radius) for b in O.bodies if hasattr(b.shape, "radius")]
+        walls = [b.state.pos[b.shape.axis] for b in list(O.bodies)[:4]]
+        handScene(disks if order is None else [disks[k] for k in order], walls)
+        return walls
+
+    return build
+
+
+@pytest.fixture
 def looseDisks():
     """A function (count, seed, radius) -> (disks, box): disks at random that touch neither each other nor the walls."""
 

@@ -14,7 +14,7 @@ from capfrac.errors import CaseError, SceneError
 
 #: Columns of the table of :func:`pressureCycle` that are numbers.
 COLUMNS = ("capillaryPressure", "gasSaturation", "trappedGas", "iteration")
-_COLOURS_OF_CELLS = ("#ffffff", "#5aa9ea", "#e8862e")  # water, gas, trapped gas
+_COLOURS_OF_CELLS = ("#ffffff", figures.COLOURS["gas"], "#e8862e")  # water, gas, trapped gas
 _COLOURS = {"drainage": "#1f5fa8", "imbibition": "#c7641b", "second drainage": "#3aa0d8"}
 
 
@@ -145,11 +145,11 @@ def _drawMap(axes, title, one, legend):
 
     colours = [_COLOURS_OF_CELLS[state] for state in one["state"]]
     axes.add_collection(PolyCollection(one["polygons"], facecolors=colours, edgecolors=colours, linewidths=0.3))
-    axes.add_collection(PatchCollection([Circle((x, y), r) for x, y, r in one["grains"]], facecolor="#f3e8c3", edgecolor="#9a8f73", linewidth=0.4))
+    axes.add_collection(PatchCollection([Circle((x, y), r) for x, y, r in one["grains"]], facecolor=figures.COLOURS["grain"], edgecolor=figures.COLOURS["outline"], linewidth=0.4))
     corners = np.array([corner for polygon in one["polygons"] for corner in polygon])
     axes.set(xlim=(corners[:, 0].min(), corners[:, 0].max()), ylim=(corners[:, 1].min(), corners[:, 1].max()), xticks=[], yticks=[], aspect="equal")
     axes.set_title(title, fontsize=9)
     if legend:
         names = zip(_COLOURS_OF_CELLS, ("water", "gas on the inlet", "trapped gas"))
-        axes.legend(handles=[Patch(facecolor=colour, edgecolor="#9a8f73", label=label) for colour, label in names],
+        axes.legend(handles=[Patch(facecolor=colour, edgecolor=figures.COLOURS["outline"], label=label) for colour, label in names],
                     loc="upper left", bbox_to_anchor=(0, -0.04), ncol=3, frameon=False, fontsize=8)

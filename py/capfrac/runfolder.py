@@ -67,6 +67,17 @@ def holdingInterrupts():
         before(*waiting[0])
 
 
+def putInPlace(aside, target, write):
+    """Let ``write(aside)`` write a file and move it to ``target`` at once; both in one folder. Raises :class:`RunFolderError` where that fails."""
+    try:
+        write(aside)
+        os.replace(aside, target)
+    except OSError as problem:
+        raise RunFolderError(f"{target} cannot be written: {problem.strerror}") from None
+    finally:
+        aside.unlink(missing_ok=True)
+
+
 class RunFolder:
     """A run folder, opened for a case. Raises :class:`RunFolderError` when it cannot be used for it."""
 
@@ -149,14 +160,7 @@ class RunFolder:
     def writeWhole(self, name, write):
         """Let ``write(path)`` write a file aside and move it to its place at once."""
         target = self.path / name
-        aside = target.with_name(f".{os.getpid()}-{target.name}")
-        try:
-            write(aside)
-            os.replace(aside, target)
-        except OSError as problem:
-            raise RunFolderError(f"{target} cannot be written: {problem.strerror}") from None
-        finally:
-            aside.unlink(missing_ok=True)
+        putInPlace(target.with_name(f".{os.getpid()}-{target.name}"), target, write)
 
     def writeSummary(self, **entries):
         """Update summary.json with these entries."""

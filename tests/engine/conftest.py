@@ -66,7 +66,7 @@ def square(networkOf):
 
 
 @pytest.fixture
-def rigid(loadSample, looseDisks, handScene):
+def rigid(settledScene, looseDisks, handScene):
     """A function (packing, order, **attributes) -> gas engine, alone with the reset of forces; nothing moves.
 
     ``packing``: "settled" (grains touch: pores of several cells) or "loose" (25 disks that do not touch).
@@ -75,12 +75,10 @@ def rigid(loadSample, looseDisks, handScene):
 
     def make(packing, order=None, **attributes):
         if packing == "settled":
-            loadSample()
-            disks = [(b.state.pos[0], b.state.pos[1], b.shape.radius) for b in O.bodies if hasattr(b.shape, "radius")]
-            walls = [b.state.pos[b.shape.axis] for b in list(O.bodies)[:4]]
+            walls = settledScene(order)
         else:
             disks, walls = looseDisks(seed=7)
-        handScene([disks[k] for k in (range(len(disks)) if order is None else order)], walls)
+            handScene([disks[k] for k in (range(len(disks)) if order is None else order)], walls)
         # Without contacts there is no rest in the sense of small forces: let every level end by itself.
         gas = GasInvasionEngine(checkInvariants=True, minLevelSteps=1, maxLevelSteps=1, **attributes)
         if "inletPoints" not in attributes and "inletTo" not in attributes:

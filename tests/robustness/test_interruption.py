@@ -9,27 +9,11 @@ import pytest
 
 from capfrac.case import readCase
 from capfrac.runfolder import RunFolder
+from processes import run, waitFor
 
 #: A run of some seconds: 40 grains, twenty levels of 300 steps or more, no pictures but those at the start and the end.
 SMALL = ["figure15", "-s", "grains.count=40", "-s", "inlet.pores=1", "-s", "ramp.start=150", "-s", "ramp.increment=1", "-s", "ramp.max=170", "-s", "ramp.minLevelSteps=300",
          "-s", "output.pressures=[]", "-s", "output.fields=false"]
-
-
-
-def waitFor(process, done, seconds=100):
-    end = time.time() + seconds
-    while time.time() < end and process.poll() is None:
-        if done():
-            return
-        time.sleep(0.02)
-    output = process.communicate(timeout=1) if process.poll() is not None else ("", "")
-    raise AssertionError(f"the run did not come to that point (status {process.poll()}): {output}")
-
-
-def run(command, *arguments):
-    process = command(*arguments)
-    output, errors = process.communicate(timeout=150)
-    return process.returncode, output, errors
 
 
 def summaryOf(folder):

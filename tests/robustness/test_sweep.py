@@ -12,6 +12,7 @@ import pytest
 
 from capfrac.errors import RunFolderError
 from capfrac.sweep import execution, readSweep, runSweep
+from processes import run, waitFor
 
 #: Two runs of a second or two: 30 grains, a short ramp.
 SMALL = """
@@ -50,21 +51,6 @@ def whole(tmp_path_factory):
 def rows(folder):
     with open(folder / "table.csv", newline="") as stream:
         return [{name: value for name, value in line.items() if name not in COST} for line in csv.DictReader(stream)]
-
-
-def waitFor(process, done, seconds=100):
-    end = time.time() + seconds
-    while time.time() < end and process.poll() is None:
-        if done():
-            return
-        time.sleep(0.02)
-    raise AssertionError(f"the sweep did not come to that point (status {process.poll()})")
-
-
-def run(command, *arguments):
-    process = command(*arguments)
-    output, errors = process.communicate(timeout=150)
-    return process.returncode, output, errors
 
 
 def test_tableHasEveryPoint(whole):

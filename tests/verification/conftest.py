@@ -6,14 +6,11 @@ from yade.wrapper import ForceResetter, GasInvasionEngine
 
 
 @pytest.fixture
-def standing(loadSample, handScene):
+def standing(settledScene):
     """A function (**attributes) -> gas engine in 60 settled grains of 1-2 mm that stand still, with an inlet of two pores in the middle of the floor."""
 
     def make(**attributes):
-        loadSample()
-        disks = [(b.state.pos[0], b.state.pos[1], b.shape.radius) for b in O.bodies if hasattr(b.shape, "radius")]
-        walls = [b.state.pos[b.shape.axis] for b in list(O.bodies)[:4]]
-        handScene(disks, walls)
+        walls = settledScene()
         # Without contacts there is no rest in the sense of small forces: let every level end by itself.
         gas = GasInvasionEngine(minLevelSteps=1, maxLevelSteps=1, checkInvariants=True, **attributes)
         gas.inletFrom, gas.inletTo = gas.inletStretch(2, 0.5 * (walls[0] + walls[1]))

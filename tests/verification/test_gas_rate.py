@@ -17,14 +17,11 @@ RATE, DT, RESERVOIR, START = 2e-3, 1e-5, 3e-4, 50.0
 
 
 @pytest.fixture
-def pack(loadSample, handScene):
+def pack(settledScene):
     """A function (**attributes) -> gas engine at a rate in the settled sample of 60 grains that stand still."""
 
     def make(**attributes):
-        loadSample()
-        disks = [(b.state.pos[0], b.state.pos[1], b.shape.radius) for b in O.bodies if hasattr(b.shape, "radius")]
-        walls = [b.state.pos[b.shape.axis] for b in list(O.bodies)[:4]]
-        handScene(disks, walls)
+        walls = settledScene()
         gas = GasInvasionEngine(checkInvariants=True, **{**dict(
             gasPressure=START, gasLaw="ideal", gasMolarMass=MOLAR_MASS, gasTemperature=TEMPERATURE, gasDeviation=DEVIATION, pressureDatum=DATUM,
             gasControl="rate", gasRate=RATE, reservoirVolume=RESERVOIR, historyInterval=1), **attributes})

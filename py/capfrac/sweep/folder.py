@@ -11,12 +11,11 @@ What has been done is what lies in the folder: there is no list that could disag
 
 import fcntl
 import json
-import os
 from pathlib import Path
 
 import capfrac
 from capfrac.errors import RunFolderError
-from capfrac.runfolder import caseKey
+from capfrac.runfolder import caseKey, putInPlace
 from capfrac.sweep import table
 
 
@@ -91,11 +90,4 @@ class SweepFolder:
 
     def _whole(self, name, write):
         target = self.path / name
-        aside = target.with_name(f".{target.name}")
-        try:
-            write(aside)
-            os.replace(aside, target)
-        except OSError as problem:
-            raise RunFolderError(f"{target} cannot be written: {problem.strerror}") from None
-        finally:
-            aside.unlink(missing_ok=True)
+        putInPlace(target.with_name(f".{target.name}"), target, write)
