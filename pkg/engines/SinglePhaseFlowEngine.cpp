@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 namespace yade {
 
@@ -50,7 +51,20 @@ void SinglePhaseFlowEngine::guardAttributes()
 	scheme      = timeIntegration == "explicit" ? Scheme::explicitEuler : timeIntegration == "implicit" ? Scheme::implicit : Scheme::undrainedStable;
 }
 
-void SinglePhaseFlowEngine::postLoad(SinglePhaseFlowEngine&) { guardAttributes(); }
+/// The old factor decides the last bits of the next pressures: a run goes on as if it had not been saved.
+void SinglePhaseFlowEngine::preSave(SinglePhaseFlowEngine&)
+{
+	auto memory      = solver.memory();
+	savedSolverStart = std::move(memory.start), savedSolverRow = std::move(memory.row), savedSolverValue = std::move(memory.value);
+}
+
+void SinglePhaseFlowEngine::postLoad(SinglePhaseFlowEngine&)
+{
+	guardAttributes();
+	// YADE calls this at assignments, too: nothing is left to be recalled then.
+	if (savedSolverStart.empty()) return;
+	solver.recall({ std::exchange(savedSolverStart, {}), std::exchange(savedSolverRow, {}), std::exchange(savedSolverValue, {}) });
+}
 
 void SinglePhaseFlowEngine::startFluids()
 {

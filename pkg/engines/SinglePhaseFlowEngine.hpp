@@ -16,6 +16,7 @@ namespace yade {
 class SinglePhaseFlowEngine : public PoreNetworkEngine {
 public:
 	virtual ~SinglePhaseFlowEngine() = default;
+	void                preSave(SinglePhaseFlowEngine&);
 	void                postLoad(SinglePhaseFlowEngine&);
 	std::vector<double> cellPressures() const override;
 	Real                wallStiffness(int wall) const override;
@@ -118,6 +119,9 @@ round-off through contacts that open and close and through remeshing. Walls are 
 		((std::vector<Real>,referenceRadii,,(Attr::hidden|Attr::readonly),"Radii at the start [m]."))
 		((Real,referencePressure,0,(Attr::hidden|Attr::readonly),"Pressure at the start [Pa]."))
 		((std::vector<Real>,cellPressure,,(Attr::hidden|Attr::readonly),"Pressures of the cells after the last step [Pa]; an incompressible fluid has no others."))
+		((std::vector<int>,savedSolverStart,,(Attr::hidden|Attr::readonly),"Matrix that the linear solver has a factor of: PressureSolverMemory::start."))
+		((std::vector<int>,savedSolverRow,,(Attr::hidden|Attr::readonly),"PressureSolverMemory::row."))
+		((std::vector<Real>,savedSolverValue,,(Attr::hidden|Attr::readonly),"PressureSolverMemory::value."))
 		((Real,massDefect,0,Attr::readonly,"Sum of in - out - stored over all steps [m³] |yupdate|; round-off."))
 		((std::vector<Real>,wallInflow,std::vector<Real>(4,0),Attr::readonly,"Flow into the sample through the left, right, bottom and top wall in the last step [m³/s] |yupdate|."))
 		((int,solverIterations,0,Attr::readonly,"Iterations of the linear solver in the last step [-] |yupdate|."))

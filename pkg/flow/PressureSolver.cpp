@@ -183,7 +183,14 @@ struct PressureSolver::Implementation {
 	PressureSolverOptions options;
 	LowerTriangle         matrix;
 	Factor                factor;
+	Vector                factored; ///< values of the matrix that the factor is of; its pattern is that of `matrix`
 	Vector                residual, direction, product, preconditioned;
+
+	void factorize(bool newPattern)
+	{
+		factor.make(matrix, newPattern);
+		factored = matrix.value;
+	}
 
 	/// residual = b - A x; its length.
 	double findResidual(const Vector& b, const Vector& x)
@@ -262,6 +269,33 @@ PressureSolver& PressureSolver::operator=(PressureSolver&&) noexcept = default;
 
 void PressureSolver::reset() { *this = PressureSolver(self->options); }
 
+PressureSolverMemory PressureSolver::memory() const
+{
+	if (!self->factor.ready) return {};
+	return { self->matrix.start, self->matrix.row, self->factored };
+}
+
+void PressureSolver::recall(const PressureSolverMemory& memory)
+{
+	reset();
+	if (memory.start.empty()) return;
+	const int n = static_cast<int>(memory.start.size()) - 1;
+	bool      fits = memory.start.front() == 0 && memory.row.size() == memory.value.size() && memory.start.back() == static_cast<int>(memory.row.size());
+	for (int j = 0; fits && j < n; ++j) {
+		fits = memory.start[j] < memory.start[j + 1] && memory.start[j + 1] <= memory.start.back() && memory.row[memory.start[j]] == j;
+		for (int k = memory.start[j] + 1; fits && k < memory.start[j + 1]; ++k)
+			fits = memory.row[k] > memory.row[k - 1] && memory.row[k] < n;
+	}
+	if (!fits) refuse("what a pressure solver should recall is no lower triangle by columns, rows ascending");
+	self->matrix.start = memory.start, self->matrix.row = memory.row, self->matrix.value = memory.value;
+	try {
+		self->factorize(true);
+	} catch (...) {
+		reset();
+		throw;
+	}
+}
+
 PressureSolution PressureSolver::solve(const PressureSystem& system, const std::vector<double>& b)
 {
 	checkNumbers(system, b);
@@ -276,7 +310,7 @@ PressureSolution PressureSolver::solve(const PressureSystem& system, const std::
 		return solution;
 	}
 	if (!solution.analysed && self->attempt(b, lengthOfB, self->options.maxIterations, solution)) return solution;
-	self->factor.make(self->matrix, solution.analysed);
+	self->factorize(solution.analysed);
 	solution.factored = true;
 	constexpr int refinements = 10; // with its own factor one is the rule
 	if (self->attempt(b, lengthOfB, refinements, solution) || self->atRoundOff(b, lengthOfB, solution)) return solution;

@@ -50,6 +50,14 @@ struct PressureSolverError : std::runtime_error {
 	using std::runtime_error::runtime_error;
 };
 
+/// What a solver remembers: the matrix that it has a factor of, its lower triangle by columns, rows ascending. Empty: none.
+/// A solver that recalls it goes on with the same bits: the factor follows from the matrix.
+struct PressureSolverMemory {
+	std::vector<int>    start; ///< of each column in `row`, and the end
+	std::vector<int>    row;
+	std::vector<double> value;
+};
+
 /// The solver; remembers pattern and factor. One thread, no BLAS: the same calls give the same bits.
 class PressureSolver {
 public:
@@ -68,6 +76,10 @@ public:
 
 	/// Forgets pattern and factor.
 	void reset();
+
+	PressureSolverMemory memory() const;
+	/// Becomes the solver whose memory this is. Throws PressureSolverError, and has then forgotten all, where it is not that of a positive definite matrix.
+	void recall(const PressureSolverMemory& memory);
 
 private:
 	struct Implementation;

@@ -176,6 +176,55 @@ TEST(PressureSolver, GivesTheSameBitsAgain)
 	EXPECT_EQ(run(), run());
 }
 
+TEST(PressureSolver, GoesOnWithTheSameBitsFromItsMemory)
+{
+	struct Step {
+		std::vector<double> x;
+		bool                factored = false;
+	};
+	const auto run = [](int cut) {
+		Random            random(7);
+		PressureSolver    solver;
+		auto              system = lattice(random, 20, 1e-2);
+		std::vector<Step> all;
+		for (int step = 0; step < 10; ++step) {
+			if (step == cut) {
+				PressureSolver other;
+				other.recall(solver.memory());
+				solver = std::move(other);
+			}
+			system = perturbed(random, system, step == 5 ? 5 : 0.02);
+			if (step == 7) system.addThroat(0, 57, 0.3);
+			const auto found = solver.solve(system, step == 8 ? std::vector<double>(400, 0) : randomVector(random, 400));
+			all.push_back({ found.x, found.factored });
+		}
+		return all;
+	};
+	const auto whole = run(-1);
+	EXPECT_TRUE(whole[5].factored && whole[7].factored && !whole[6].factored) << "the memory matters in some steps";
+	for (int cut = 0; cut < 10; ++cut) {
+		const auto continued = run(cut);
+		for (int step = 0; step < 10; ++step) {
+			EXPECT_EQ(continued[step].x, whole[step].x) << "cut before step " << cut;
+			EXPECT_EQ(continued[step].factored, whole[step].factored) << "cut before step " << cut;
+		}
+	}
+}
+
+TEST(PressureSolver, RecallsNoNonsense)
+{
+	PressureSolver solver;
+	for (const auto& memory : { PressureSolverMemory { { 0, 2 }, { 0, 1 }, { 1, 1 } }, PressureSolverMemory { { 0, 2, 3 }, { 0, 1 }, { 1, 1 } },
+	             PressureSolverMemory { { 0, 1, 2 }, { 0, 0 }, { 1, 1 } }, PressureSolverMemory { { 0, 1 }, { 0 }, {} } })
+		EXPECT_NE(messageOf([&] { solver.recall(memory); }).find("no lower triangle"), std::string::npos);
+	EXPECT_NE(messageOf([&] { solver.recall({ { 0, 1 }, { 0 }, { -1 } }); }).find("not positive definite"), std::string::npos);
+	EXPECT_TRUE(solver.memory().start.empty());
+	solver.recall({});
+	PressureSystem one;
+	one.diagonal = { 4 };
+	EXPECT_EQ(solver.solve(one, { 2 }).x, std::vector<double> { 0.5 });
+}
+
 TEST(PressureSolver, TakesNothingForNothing)
 {
 	Random         random(6);
