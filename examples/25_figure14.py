@@ -21,9 +21,7 @@ from capfrac.case import readCase
 def main(folder="runs", seed=1, grainCount=300):
     results = {}
     for name in ("figure14", "figure14_vertical"):
-        scale = (grainCount / 300) ** 0.5  # of the box: the inlet stays in its middle
-        points = [[scale * x, scale * y] for x, y in readCase(name)["inlet"]["points"]]
-        case = readCase(name, [f"grains.seed={seed}", f"grains.count={grainCount}", f"inlet.points={points}", "output.fields=false"])
+        case = readCase(name, [f"grains.seed={seed}", f"grains.count={grainCount}", "output.fields=false"])
         summary = injection.inject(case, os.path.join(folder, f"{name}-{grainCount}-seed{seed}"), report=lambda text: None, replaceScene=True)
         found = results[name] = summary["fracture"]
         print(f"{summary['title']}: {summary['mode']['mode']} at {summary['mode']['breakthroughPressure']:.4g} Pa, {found['branchCount']} branches")

@@ -63,6 +63,7 @@ KEYS = (
     Key("inlet", "from", float, "m", None, "Instead of pores: begin of the inlet, from the left (lower) end of its wall.", low=0),
     Key("inlet", "to", float, "m", None, "Instead of pores: end of the inlet, from the left (lower) end of its wall.", low=0),
     Key("inlet", "points", list, "m", (), "Instead of a stretch of wall: points [x, y] from the lower left corner of the box; the pores that hold them."),
+    Key("inlet", "middle", float, "m", None, "Instead of a stretch of wall: the pores within this distance of the middle of the box (that hold the middle or one of 24 points on three circles).", low=0),
     notNegative("ramp", "start", "Pa", REQUIRED, "Capillary pressure p_g - p_w at which the ramp begins."),
     positive("ramp", "increment", "Pa", REQUIRED, "Step of the ramp; taken whenever the grains are at rest."),
     positive("ramp", "max", "Pa", REQUIRED, "Capillary pressure at which the ramp ends."),
@@ -134,15 +135,15 @@ def _checkTogether(case, source):
         raise CaseError(f"{source}: grains.rMax = {grains['rMax']} m, allowed: >= grains.rMin = {grains['rMin']} m")
     if grains["rMax"] > MAX_SIZE_RATIO * grains["rMin"]:
         raise CaseError(f"{source}: grains.rMax / grains.rMin = {grains['rMax'] / grains['rMin']:g}, allowed: up to {MAX_SIZE_RATIO} (narrow distributions)")
-    ways = [bool(inlet["pores"]), inlet["from"] is not None or inlet["to"] is not None, bool(inlet["points"])]
+    ways = [bool(inlet["pores"]), inlet["from"] is not None or inlet["to"] is not None, bool(inlet["points"]), inlet["middle"] is not None]
     if sum(ways) != 1:
-        raise CaseError(f"{source}: no inlet or several; give one of inlet.pores, inlet.from with inlet.to, inlet.points")
+        raise CaseError(f"{source}: no inlet or several; give one of inlet.pores, inlet.from with inlet.to, inlet.points, inlet.middle")
     if ways[1] and (inlet["from"] is None or inlet["to"] is None or inlet["to"] <= inlet["from"]):
         raise CaseError(f"{source}: inlet.from = {inlet['from']}, inlet.to = {inlet['to']}; allowed: both given, from < to")
     for point in inlet["points"]:
         if not (isinstance(point, (list, tuple)) and len(point) == 2 and all(isinstance(v, (int, float)) for v in point)):
             raise CaseError(f"{source}: inlet.points holds {point!r}, allowed: pairs [x, y] in metres")
-    if inlet["wall"] == inlet["outlet"] and not inlet["points"]:
+    if inlet["wall"] == inlet["outlet"] and not any(ways[2:]):
         raise CaseError(f"{source}: inlet.wall = inlet.outlet = '{inlet['wall']}', allowed: two different walls")
     if ramp["max"] < ramp["start"]:
         raise CaseError(f"{source}: ramp.max = {ramp['max']} Pa, allowed: >= ramp.start = {ramp['start']} Pa")

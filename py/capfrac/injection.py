@@ -103,16 +103,24 @@ def _makeSample(case, say):
     return nBonds
 
 
+def _inletPoints(inlet, walls):
+    left, right, bottom, top = (walls[name].state.pos[axis] for name, axis in (("left", 0), ("right", 0), ("bottom", 1), ("top", 1)))
+    if inlet["middle"] is None:
+        return [(left + x, bottom + y) for x, y in inlet["points"]]
+    x, y = 0.5 * (left + right), 0.5 * (bottom + top)
+    circles = np.linspace(0, inlet["middle"], 4)[1:]
+    return [(x, y)] + [(x + r * math.cos(angle), y + r * math.sin(angle)) for r in circles for angle in np.arange(8) * math.pi / 4]
+
+
 def _startGas(case):
     inlet, gas, water, ramp, supply, network = (case[section] for section in ("inlet", "gas", "water", "ramp", "supply", "network"))
     walls = sediment.wallBodies()
     axis = 1 if inlet["wall"] in ("left", "right") else 0
     low = walls["bottom" if axis else "left"].state.pos[axis]
-    corner = (walls["left"].state.pos[0], walls["bottom"].state.pos[1])
     stretch = None if inlet["from"] is None else (low + inlet["from"], low + inlet["to"])
     engine = startInjection(
         ramp["start"], ramp["increment"], ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"], stretch,
-        [(corner[0] + x, corner[1] + y) for x, y in inlet["points"]],
+        _inletPoints(inlet, walls),
         interfacialTension=gas["interfacialTension"], contactAngle=math.radians(gas["contactAngle"]), entryLaw=gas["entryLaw"],
         gasLaw=gas["law"], gasMolarMass=gas["molarMass"], gasTemperature=gas["temperature"], gasDeviation=gas["deviation"],
         gasTable=[tuple(map(float, pair)) for pair in gas["table"]], pressureDatum=gas["datum"],

@@ -2,11 +2,13 @@
 
 import importlib.util
 import json
+import math
 from pathlib import Path
 
 import pytest
 from yade import O
 
+from capfrac import sediment
 from capfrac.cli import main as command
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -196,7 +198,12 @@ def test_figure14(tmp_path):
         assert found["crackedThroats"] + found["stretchedThroats"] + found["rigidThroats"] > 0
         assert (tmp_path / f"{name}-60-seed2" / "fracture.png").stat().st_size > 20_000
         assert (tmp_path / f"{name}-60-seed2" / "stress.png").stat().st_size > 20_000
-
+    # The scene is that of the last run: its inlet was put around the middle, from where the walls have moved by a few per cent.
+    # A mean radius is 1.5 um.
+    walls, gas = sediment.wallBodies(), sediment.engine("gas")
+    middle = [0.5 * (walls[low].state.pos[axis] + walls[high].state.pos[axis]) for axis, low, high in ((0, "left", "right"), (1, "bottom", "top"))]
+    assert len(gas.inletPoints) == 25 and list(gas.inletPoints[0]) == pytest.approx(middle, abs=1.5e-6)
+    assert max(math.dist(point, gas.inletPoints[0]) for point in gas.inletPoints) == pytest.approx(3e-6)
 
 def test_toughness(tmp_path):
     found = example("26_toughness").main(str(tmp_path), grainCount=80, columns=10, brokenContacts=(1, 2), halfLengths=(1.5, 2.5))

@@ -21,18 +21,20 @@ def drawFracture(shot, found, path, advance=None):
     across, up = shot.box[1] - shot.box[0], shot.box[3] - shot.box[2]
     width = 4.6
     height = width * up / across
-    total = np.array([width + 3.55, height + 1.0])
+    frame = max(height, 4.1)  # a flat box leaves the panels beside it their room
+    base = 0.72 + 0.5 * (frame - height)
+    total = np.array([width + 3.55, frame + 1.0])
     with newFigure(total) as figure:
-        axes = figure.add_axes([0.15 / total[0], 0.72 / total[1], width / total[0], height / total[1]])
+        axes = figure.add_axes([0.15 / total[0], base / total[1], width / total[0], height / total[1]])
         colours = drawCrack(axes, shot, found, 72 * width / across)
         axes.set_title(f"$P_c$ = {quantity(shot.capillaryPressure, 'Pa')}, {branchText(found)}", fontsize=10)
-        bar = figure.add_axes([0.15 / total[0], 0.45 / total[1], 0.45 * width / total[0], 0.1 / total[1]])
+        bar = figure.add_axes([0.15 / total[0], (base - 0.27) / total[1], 0.45 * width / total[0], 0.1 / total[1]])
         colourBar(figure, bar, colours)
         _scaleBar(axes, shot)
         side = (width + 0.75) / total[0]
         drawRose(figure.add_axes([side, 1 - 2.35 / total[1], 2.2 / total[0], 1.75 / total[1]], projection="polar"), *orientation.branchSteps(found))
         if advance is not None and advance["event"]:
-            _drawAdvance(figure.add_axes([side, 0.72 / total[1], 2.15 / total[0], min(2.0, height - 2.5) / total[1]]), found, advance)
+            _drawAdvance(figure.add_axes([side, 0.72 / total[1], 2.15 / total[0], min(2.0, frame - 2.5) / total[1]]), found, advance)
         saveFigure(figure, path)
 
 
