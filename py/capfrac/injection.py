@@ -294,7 +294,8 @@ class Run:
         gas = self.gas
         measured = mode.measureMode(gas)
         levels = gas.levels()
-        if self.case["output"]["pictures"] != "none":
+        pictures = self.case["output"]["pictures"] != "none"
+        if pictures:
             figures.drawCapillaryCurve(levels, self.folder.path / "curve.png", events=gas.events(), bondCount=self.folder.summary["sample"]["bondsHolding"],
                                        breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure, title=self.case["case"]["title"])
         results = {"saturation": {f"capillaryPressureAt{share:.0%} [Pa]": next(
@@ -304,11 +305,12 @@ class Run:
             "forceNetwork": mode.forceNetworkChange(self.start, last),
             "ledger [m^3]": dict(gas.volumes()), "iterations": levels["iteration"][-1] if levels["iteration"] else 0}
         course = gas.history()
-        history.drawHistory(course, self.folder.path / "history.png", events=gas.events(), breakthroughIter=gas.breakthroughIter,
-                            startTime=self.folder.summary["sample"]["startTime [s]"], waterPressure=gas.waterPressure, title=self.case["case"]["title"])
+        if pictures:
+            history.drawHistory(course, self.folder.path / "history.png", events=gas.events(), breakthroughIter=gas.breakthroughIter,
+                                startTime=self.folder.summary["sample"]["startTime [s]"], waterPressure=gas.waterPressure, title=self.case["case"]["title"])
         results["gas"] = {**{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
                           "highestCapillaryPressure [Pa]": max(course["gasPressure"], default=gas.gasPressure) - gas.waterPressure}
-        diagnostics = fracture.reportRun(self.folder.path, gas.openingThreshold, self.folder.writeWhole)
+        diagnostics = fracture.reportRun(self.folder.path, gas.openingThreshold, self.folder.writeWhole, pictures)
         self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results, fracture=diagnostics, **self.cost())
         self.folder.checkpoint.unlink(missing_ok=True)
 

@@ -189,10 +189,13 @@ def test_tipsAdvanceWithTheEvents():
     assert rows["tipSpeed [m/s]"] == pytest.approx([math.nan, 2, math.nan, 1, math.nan], nan_ok=True)  # 4 in the 4 seconds since it last moved
 
 
-def test_reportOfARunFolder(tmp_path):
+@pytest.mark.parametrize("stretch", [1, 3])  # of the box: a flat one, too
+def test_reportOfARunFolder(tmp_path, stretch):
     (tmp_path / "snapshots").mkdir()
     START.save(tmp_path / "snapshots" / "start.npz")
-    cracks(arm(EAST), arm(NORTH)).save(tmp_path / "snapshots" / "end.npz")
+    end = cracks(arm(EAST), arm(NORTH))
+    end.box = (stretch * end.box[0], stretch * end.box[1], *end.box[2:])
+    end.save(tmp_path / "snapshots" / "end.npz")
     (tmp_path / "events.csv").write_text("time [s],capillaryPressure [Pa],x [m],y [m],kind\n1.0,100,16.5,15.5,opened\n")
     short = fracture.reportRun(tmp_path)
     assert short["branchCount"] == 2 and short["moment"] == "end"
@@ -200,6 +203,8 @@ def test_reportOfARunFolder(tmp_path):
     assert (tmp_path / "fracture.csv").read_text().count("\n") == 2
     assert (tmp_path / "fracture.png").stat().st_size > 10_000
     assert set(fracture.FILES) < set(RunFolder.FILES)
+    (tmp_path / "fracture.png").unlink()
+    assert fracture.reportRun(tmp_path, pictures=False) == short and not (tmp_path / "fracture.png").exists()
 
 
 def test_picturesOfNoFracture(tmp_path):

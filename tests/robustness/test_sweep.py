@@ -45,6 +45,7 @@ def whole(tmp_path_factory):
     (folder / "small.toml").write_text(SMALL)
     result = runSweep(readSweep(folder / "small.toml"), folder / "sweep", processes=2)
     assert (result["finished"], result["failed"], result["points"]) == (2, 0, 2)
+    assert not list((folder / "sweep" / "points").rglob("*.png")), "output.pictures is none"
     return rows(folder / "sweep")
 
 

@@ -132,11 +132,12 @@ def readEvents(path):
         raise RunFolderError(f"{path} cannot be read as the events of a run: {problem}") from None
 
 
-def reportRun(path, openingThreshold=0.01, write=None):
-    """Measure the fracture of a run folder and draw it: fracture.json, fracture.csv, fracture.png, stress.png; returns the short numbers.
+def reportRun(path, openingThreshold=0.01, write=None, pictures=True):
+    """Measure the fracture of a run folder, fracture.json and fracture.csv, and draw it, fracture.png and stress.png; returns the short numbers.
 
     The moment is the breakthrough, or the end of the run where it did not come to that; ``fracture.json`` has both. ``write(name, writer)``
-    puts a file in its place (that of :class:`~capfrac.runfolder.RunFolder`). :class:`RunFolderError` for a folder without snapshots.
+    puts a file in its place (that of :class:`~capfrac.runfolder.RunFolder`); without ``pictures`` there are numbers alone.
+    :class:`RunFolderError` for a folder without snapshots.
     """
     path = Path(path)
     shots = {p.stem: snapshot.load(p) for p in sorted((path / "snapshots").glob("*.npz")) if not p.stem.endswith("-stress")}
@@ -150,12 +151,17 @@ def reportRun(path, openingThreshold=0.01, write=None):
     numbers, found = measured[moment]
     advance = tipAdvance(found, readEvents(path / "events.csv"))
     write("fracture.csv", lambda target: _writeColumns(target, advance))
+    if pictures:
+        _drawRun(path, shots, moment, found, advance, write)
+    return {"moment": moment, **{key: value for key, value in numbers.items() if key not in ("brokenBonds", "branches")}, "brokenBonds": len(numbers["brokenBonds"])}
+
+
+def _drawRun(path, shots, moment, found, advance, write):
     write("fracture.png", lambda target: figures.drawFracture(shots[moment], found, target, advance=advance))
     fields = [(shots[name], stress.loadStress(path / "snapshots" / f"{name}-stress.npz")) for name in ("start", "initiation", "breakthrough")
               if (path / "snapshots" / f"{name}-stress.npz").exists()]
     if fields:
         write("stress.png", lambda target: figures.drawStress(fields[-2:], target))
-    return {"moment": moment, **{key: value for key, value in numbers.items() if key not in ("brokenBonds", "branches")}, "brokenBonds": len(numbers["brokenBonds"])}
 
 
 def _writeColumns(target, columns):
