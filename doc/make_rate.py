@@ -11,7 +11,7 @@ import numpy as np
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "tests" / "validation"))
 
-from rate import LARGE, RUNS, SMALL, one, table  # noqa: E402
+from rate import LARGE, NUDGED, RUNS, SMALL, one, table  # noqa: E402
 
 from capfrac.figures import COLOURS, newFigure, saveFigure  # noqa: E402
 
@@ -30,9 +30,18 @@ def marks(axes, run, x, colour):
             axes.plot(x(events["iteration"][k]), events["gasPressure"][k] / 1e3, marker, color=colour, markersize=6, markerfacecolor="white", zorder=4)
 
 
+def drawBySupply(axes, run, label, colour, line):
+    """The pressure of the gas over what came in."""
+    history = run["history"]
+    supplied = (np.array(history["mass"]) - run["ledger"]["initial"]) / run["ledger"]["initial"]
+    axes.plot(supplied, np.array(history["gasPressure"]) / 1e3, line, color=colour, linewidth=1.2, label=label)
+    marks(axes, run, lambda i: np.interp(i, history["iteration"], supplied), colour)
+
+
 def main():
     runs = {name: one(name, **RUNS[name]) for name in STYLES}
-    print(*table(runs.values()), sep="\n")
+    nudged = [one(name, **values) for name, values in NUDGED.items()]
+    print(*table([*runs.values(), *nudged]), sep="\n")
     with newFigure((7.2, 3.0)) as figure:
         left, right = figure.subplots(1, 2, gridspec_kw={"left": 0.075, "right": 0.985, "bottom": 0.16, "top": 0.925, "wspace": 0.2})
         for name in ("ramp", "large", "small"):
@@ -42,12 +51,11 @@ def main():
             left.plot(time, np.array(history["gasPressure"]) / 1e3, line, color=colour, linewidth=1.2, label=label)
             marks(left, run, lambda i: np.interp(i, history["iteration"], time), colour)
         left.set(xlabel="time since the start of the injection [µs]", ylabel="capillary pressure $P_c$ [kPa]")
+        for k, run in enumerate(nudged):
+            drawBySupply(right, run, "rate changed by 1 or 2 billionths" if k == 0 else None, "0.7", "-")
         for name in ("small", "small-half-rate", "small-half-step"):
-            run, (label, colour, line) = runs[name], STYLES[name]
-            history = run["history"]
-            supplied = (np.array(history["mass"]) - run["ledger"]["initial"]) / run["ledger"]["initial"]
-            right.plot(supplied, np.array(history["gasPressure"]) / 1e3, line, color=colour, linewidth=1.2, label=label if name != "small" else "as on the left")
-            marks(right, run, lambda i: np.interp(i, history["iteration"], supplied), colour)
+            label, colour, line = STYLES[name]
+            drawBySupply(right, runs[name], label if name != "small" else "as on the left", colour, line)
         right.set(xlabel="gas supplied / gas at the start [-]")
         for axes, letter in ((left, "a"), (right, "b")):
             axes.plot([], [], "^", color="black", markerfacecolor="white", markersize=6, label="first opened throat")

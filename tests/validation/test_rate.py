@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from rate import COARSE, RUNS, driving, highest, one, opening
+from rate import COARSE, NUDGED, RUNS, driving, highest, one, opening
 
 pytestmark = pytest.mark.validation
 
@@ -13,7 +13,7 @@ INCREMENT = {"figure15": 1.0, "figure16": 1e3}
 
 @pytest.fixture(scope="module")
 def runs():
-    return {name: one(name, **values) for name, values in {**RUNS, **COARSE}.items()}
+    return {name: one(name, **values) for name, values in {**RUNS, **NUDGED, **COARSE}.items()}
 
 
 def test_massCloses(runs):
@@ -46,10 +46,17 @@ def test_halvingTheStepHardlyChangesThePressures(runs, volume, refined):
     plain, half = runs[volume], runs[f"{volume}-{refined}"]
     assert opening(half) == pytest.approx(opening(plain), rel=0.02)
     assert driving(half) == pytest.approx(driving(plain), rel=0.02)
-    if refined == "half-rate":
-        # Not so with another time step: where a fracture opens the grains go ways of their own, and the pressure falls by ten per
-        # cent while the gas is on its last few pores.
+    if volume == "large":
         assert half["breakthrough"] == pytest.approx(plain["breakthrough"], rel=0.02)
+
+
+@pytest.mark.parametrize("refined", ["half-rate", "half-step"])
+def test_whereThePressureFallsTheStepMattersNoMoreThanABillionth(runs, refined):
+    """With the small volume the pressure falls by ten per cent while the gas is on its last few pores. Which these are is a matter of
+    accidents: a billionth of the rate decides it, and half the step no more."""
+    accidents = [runs[name]["breakthrough"] for name in ("small", *NUDGED)]
+    assert max(accidents) - min(accidents) > 0.02 * max(accidents), "no reason to compare with accidents"
+    assert 0.98 * min(accidents) < runs[f"small-{refined}"]["breakthrough"] < 1.02 * max(accidents)
 
 
 def test_pressureFallsWhereTheSampleOpens(runs):
