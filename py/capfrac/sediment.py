@@ -144,10 +144,15 @@ def engine(label):
 
 
 def insertFluid(fluid):
-    """Put a fluid engine (with a label) where it belongs, after the contacts and before the servo; returns it as YADE holds it."""
+    """Put a fluid engine (with a label) where it belongs, after the contacts and before the servo; returns it as YADE holds it.
+
+    Raises :class:`SceneError` where another engine has that label.
+    """
     from yade import O
 
     engines = list(O.engines)
+    if any(other.label == fluid.label for other in engines):
+        raise SceneError(f"the scene has an engine with the label '{fluid.label}' already; take it out of O.engines first, or give the new one another label")
     engines.insert(engines.index(engine("servo")), fluid)
     O.engines = engines
     return engine(fluid.label)

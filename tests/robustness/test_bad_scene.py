@@ -88,6 +88,16 @@ def test_sceneWithoutEngines(function):
         function()
 
 
+def test_secondFluidOfTheSameLabel(loadSample):
+    loadSample()
+    first = injection.startInjection(start=100, increment=1, max=200, pores=2)
+    before = len(O.engines)
+    with pytest.raises(SceneError, match="the scene has an engine with the label 'gas' already; take it out of O.engines first"):
+        injection.startInjection(start=110, increment=1, max=200, pores=2)
+    assert len(O.engines) == before and sediment.engine("gas").gasPressure == first.gasPressure == 100
+
+
+
 def test_timeStepTooLarge(four, sceneState):
     put(5, pos=(3.03 * R - 0.02 * R, 1.02 * R, 0))  # touches its neighbour
     O.step()
