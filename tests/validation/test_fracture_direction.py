@@ -1,7 +1,7 @@
 """Figure 14 of Jain & Juanes (2008): branched fractures in all directions under equal stresses, upright ones under a larger vertical stress (long: see `--validation`).
 
 The paper shows one picture and no numbers. What is asserted is what it says: more than one branch, and the direction of the stresses.
-With three samples a test for *any* direction cannot be significant; the one against the vertical, named beforehand, can.
+Whether fractures prefer a direction is asked of the samples, not of their branches: see doc/fracture.md.
 """
 
 import pytest
@@ -16,22 +16,22 @@ pytestmark = pytest.mark.validation
 def summaries():
     done = execute(fractureRuns())
     writeTable(FOLDER / "figure14.csv", done, fractureRow)
-    return {case: [done[f"{case}-seed{seed}"] for seed in FRACTURE_SEEDS] for case in ("figure14", "figure14_vertical")}
+    return {case: [done[f"{case}-seed{seed}"] for seed in seeds] for case, seeds in FRACTURE_SEEDS.items()}
 
 
 def test_equalStressesGiveBranches(summaries):
     rows = [fractureRow(summary) for summary in summaries["figure14"]]
     assert all(row["mode"] in ("fracture", "mixed") for row in rows), rows
-    assert all(row["branches"] >= 1 for row in rows) and sum(row["branches"] >= 2 for row in rows) > len(rows) / 2, rows
+    assert sum(row["branches"] >= 2 for row in rows) >= len(rows) - 1, rows  # one sample may have its accident
 
 
 def test_equalStressesPreferNoDirection(summaries):
-    # Samples without a direction fail this one time in a hundred.
+    # Samples without a direction fail each of these one time in a hundred.
     found = fracture.orientationOfRuns(summaries["figure14"])
-    assert found["pVertical"] > 0.01, found
+    assert found["p"] > 0.01 and found["pVertical"] > 0.01, found
 
 
 def test_aLargerVerticalStressTurnsTheFractureUpright(summaries):
     found = fracture.orientationOfRuns(summaries["figure14_vertical"])
     assert abs(found["mean [degrees]"] - 90) < 30, found  # a sixth of the circle on each side: a third of all directions
-    assert found["pVertical"] < 0.05, found
+    assert found["pVertical"] < 0.01, found
