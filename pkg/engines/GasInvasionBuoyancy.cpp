@@ -22,6 +22,15 @@ capfrac::Vec2 GasInvasionEngine::datum() const
 	return reader.box.foot(wallFromName("inletWall", inletWall), { middle, middle });
 }
 
+/// What the pressures of both fluids at rest at a place exceed those at the datum by [Pa].
+capfrac::FluidHeads GasInvasionEngine::headsAt(capfrac::Vec2 place) const
+{
+	if (!heavy()) return {};
+	const auto from = datum();
+	const Real fall = gravity[0] * (place.x - from.x) + gravity[1] * (place.y - from.y);
+	return { fluidDensity * fall, gasDensity * fall };
+}
+
 /// What the capillary pressure at a place exceeds that at the datum by [Pa].
 Real GasInvasionEngine::head(capfrac::Vec2 place) const
 {
@@ -71,19 +80,22 @@ capfrac::Vec2 GasInvasionEngine::weightOf(int cell) const
 	return { density * gravity[0], density * gravity[1] };
 }
 
+/// Centroid of what is void in a cell; the cell's own where grains that overlap leave none.
+capfrac::Vec2 GasInvasionEngine::voidCentre(int cell) const
+{
+	const auto moments = capfrac::voidMoments(mesh, cell, reader.grains, reader.box);
+	if (!(moments.area > 0)) return capfrac::cellCentre(mesh, cell, reader.grains, reader.box);
+	return capfrac::Vec2 { reader.box.left, reader.box.bottom } + (1 / moments.area) * moments.first;
+}
+
 std::vector<double> GasInvasionEngine::cellPressures() const
 {
 	if (!drained()) return SinglePhaseFlowEngine::cellPressures();
 	auto pressure = pressuresAtDatum();
 	if (!heavy()) return pressure;
-	const capfrac::Vec2 toDatum = datum() - capfrac::Vec2 { reader.box.left, reader.box.bottom };
-	for (std::size_t c = 0; c < pressure.size(); ++c) {
-		const int           cell    = static_cast<int>(c);
-		const auto          moments = capfrac::voidMoments(mesh, cell, reader.grains, reader.box);
-		const capfrac::Vec2 place   = moments.area > 0 ? (1 / moments.area) * moments.first
-		                                               : capfrac::cellCentre(mesh, cell, reader.grains, reader.box) - capfrac::Vec2 { reader.box.left, reader.box.bottom };
-		pressure[c] += capfrac::dot(weightOf(cell), place - toDatum);
-	}
+	const auto from = datum();
+	for (std::size_t c = 0; c < pressure.size(); ++c)
+		pressure[c] += capfrac::dot(weightOf(static_cast<int>(c)), voidCentre(static_cast<int>(c)) - from);
 	return pressure;
 }
 
@@ -101,6 +113,45 @@ capfrac::FluidForces GasInvasionEngine::forcesOfFluids() const
 		pressure[c] -= capfrac::dot(weight[c], toDatum);
 	}
 	auto forces = capfrac::fluidForces(mesh, pressure, reader.grains, reader.box);
+	forces += capfrac::weightForces(mesh, reader.grains, reader.box, weight);
+	return forces;
+}
+
+// --- solved water -----------------------------------------------------------------------------------
+
+/// Fills the cells of water under the pressure at rest. By their first moments, in which pressure and amount are linear: so a pore of several cells, too, has
+/// exactly the pressure at its centroid.
+void GasInvasionEngine::letWaterRest()
+{
+	const capfrac::Vec2 toDatum = datum() - capfrac::Vec2 { reader.box.left, reader.box.bottom };
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+		const int cell = static_cast<int>(c);
+		if (contents.phase[c] == capfrac::Phase::gas) continue;
+		const auto moments = capfrac::voidMoments(mesh, cell, reader.grains, reader.box);
+		contents.water[c] += capfrac::dot(weightOf(cell), moments.first - moments.area * toDatum) / bulkModulus;
+		cellState[c] = waterPressure + headsAt(voidCentre(cell)).water;
+	}
+}
+
+/// As SinglePhaseFlowEngine has it, with a weight per pore: where both fluids are in one, by their shares.
+capfrac::FluidForces GasInvasionEngine::weightOfFluid() const
+{
+	if (drained() || !heavy() || cellState.size() != mesh.cells.size()) return {};
+	const auto          fluids = twoFluids();
+	const auto          pores  = twoFluidPores();
+	const capfrac::Vec2 corner { reader.box.left, reader.box.bottom };
+	std::vector<double> atCentroid(mesh.cells.size());
+	std::vector<capfrac::Vec2> weight(mesh.cells.size());
+	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+		const auto& pore = pores[poreOfCell[c]];
+		// From the fluid that does not flow through the pore: the other takes what room the grains leave it.
+		const Real water   = math::min(Real(1), math::max(Real(0), capfrac::waterVolume(fluids, pore.water, pore.pressure) / pore.volume));
+		const Real share   = pore.isGas ? 1 - water : capfrac::gasShare(fluids, pore);
+		const Real density = share * gasDensity + (1 - share) * fluidDensity;
+		weight[c]          = { density * gravity[0], density * gravity[1] };
+		atCentroid[c]      = -capfrac::dot(weight[c], poreCentre[poreOfCell[c]] - corner);
+	}
+	auto forces = capfrac::fluidForces(gradients, atCentroid, reader.grains.size());
 	forces += capfrac::weightForces(mesh, reader.grains, reader.box, weight);
 	return forces;
 }

@@ -32,9 +32,7 @@ void GasInvasionEngine::checkDisplacementTogether() const
 	const std::string with = " with waterFlow = 'solved'";
 	if (gasState.law == capfrac::GasLaw::incompressible) refuseAttribute("gasLaw", "'" + gasLaw + "'", "'ideal', 'tabulated'" + with + ": the pressure of the gas follows from its mass");
 	if (!std::isfinite(bulkModulus)) refuseAttribute("bulkModulus [Pa]", bulkModulus, "finite" + with + " (that of water is 2.2e9)");
-	if (std::isfinite(grainBulkModulus)) refuseAttribute("grainBulkModulus [Pa]", grainBulkModulus, "infinity" + with);
 	if (timeIntegration != "undrainedStable") refuseAttribute("timeIntegration", "'" + timeIntegration + "'", "'undrainedStable'" + with);
-	if (heavy()) refuseAttribute("gravity [m/s²]", gravity.transpose(), "(0, 0), or fluids without weight," + with);
 	if (imbibition) refuseAttribute("imbibition", imbibition, "false" + with + ": gas does not recede");
 	checkSupplyTogether();
 }
@@ -76,17 +74,19 @@ capfrac::TwoFluids GasInvasionEngine::twoFluids() const
 /// Its least size gives the pressure of the reservoir a meaning.
 Real GasInvasionEngine::reservoirSize() const { return math::max(reservoirVolume, leastReservoir * initialVoid / mesh.cells.size()); }
 
-/// The inlet was filled by volume: its gas has the pressure of the reservoir.
+/// Both fluids begin at rest. The inlet was filled by volume: its gas has the pressure of the reservoir.
 void GasInvasionEngine::startDisplacement()
 {
-	const Real ratio = capfrac::gasRatio(twoFluids(), gasPressure), density = densityAt(0);
-	waterIn = 0, gasIn = 0, initialWater = thickness * contents.totalWater();
+	const auto fluids  = twoFluids();
+	const Real density = densityAt(0);
 	cellState.assign(mesh.cells.size(), waterPressure);
+	if (heavy()) letWaterRest();
+	waterIn = 0, gasIn = 0, initialWater = thickness * contents.totalWater();
 	const auto voidsNow = currentVoids();
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		if (contents.phase[c] != capfrac::Phase::gas) continue;
-		cellState[c]        = gasPressure;
-		contents.gas[c]     = voidsNow[c] * ratio;
+		cellState[c]        = gasPressure + headsAt(voidCentre(static_cast<int>(c))).gas;
+		contents.gas[c]     = voidsNow[c] * capfrac::gasRatio(fluids, cellState[c]);
 		contents.gasMass[c] = density * contents.gas[c];
 		gasIn += thickness * contents.gas[c];
 	}
@@ -111,9 +111,13 @@ void GasInvasionEngine::displaceWater()
 	auto       network = twoFluidNetwork();
 	const auto before  = network.pores.back().gas;
 	const auto done    = namingPores([&] {
-		if (!grainsMove()) return capfrac::displace(network, nullptr, scene->dt, solver, { maxFilling });
-		const auto grains = skeleton();
-		return capfrac::displace(network, &grains, scene->dt, solver, { maxFilling });
+		capfrac::Skeleton grains;
+		if (grainsMove()) grains = skeleton();
+		else
+			grains.compression = compression(); // they do not move, but may be compressed
+		auto found = capfrac::displace(network, &grains, scene->dt, solver, { maxFilling });
+		compressGrains(found.growth);
+		return found;
 	});
 	waterIn += done.water.in - done.water.out;
 	gasIn += done.gas.in - done.gas.out - (network.pores.back().gas - before);

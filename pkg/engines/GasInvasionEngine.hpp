@@ -43,6 +43,7 @@ protected:
 	void followRemesh(const capfrac::Triangulation& before) override;
 	Real prescribedPressure(int wall) const override;
 	capfrac::FluidForces forcesOfFluids() const override;
+	capfrac::FluidForces weightOfFluid() const override;
 	Real reportedEntryPressure(int edge) const override;
 
 private:
@@ -65,15 +66,18 @@ private:
 	void                       reopen(int edge);
 	void                       recordReturn(Return kind, int edge, int domain, Real threshold);
 	void                       drainByFilms();
-	// GasInvasionBuoyancy.cpp: columns of gas and water at rest
+	// GasInvasionBuoyancy.cpp: weights of gas and water
 	bool                       heavy() const;
 	capfrac::Vec2              datum() const;
+	capfrac::FluidHeads        headsAt(capfrac::Vec2 place) const;
 	Real                       head(capfrac::Vec2 place) const;
 	capfrac::Vec2              throatPlace(int edge) const;
 	std::pair<Real, Real>      throatShape(int edge) const;
 	Real                       entryPressureAtDatum(int edge) const;
 	std::vector<double>        pressuresAtDatum() const;
 	capfrac::Vec2              weightOf(int cell) const;
+	capfrac::Vec2              voidCentre(int cell) const;
+	void                       letWaterRest();
 	void                     record(int edge, int domain);
 	void                     fillWithGas(int domain);
 	void                     countDetachedGas(const capfrac::DrainageNetwork& network);
@@ -100,6 +104,7 @@ private:
 	void                     startDisplacement();
 	Real                     reservoirSize() const;
 	void                     joinPhases();
+	std::vector<capfrac::TwoFluidPore> twoFluidPores() const;
 	capfrac::TwoFluidNetwork twoFluidNetwork();
 	void                     addReservoir(capfrac::TwoFluidNetwork& network) const;
 	std::vector<Real>        bodyPressures() const;
@@ -197,7 +202,7 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((bool,imbibition,false,,"Whether water refills pores when the capillary pressure falls below their refill pressure $2\\gamma\\cos\\theta/r_b$, $r_b$ the radius of the largest sphere in the pore, and gas that loses the inlet is trapped: it keeps its amount and its pressure. Gas recedes through the inlet alone, whose pores stay gas; the outlet passes water alone."))
 		((bool,snapOff,false,Attr::triggerPostLoad,"With imbibition: whether the water films in a throat of gas snap it off below $\\gamma/r_{in}\\,(\\cos\\theta-\\sin\\theta\\tan\\beta)$, $\\beta$ = 45 degrees; $\\theta$ < 45 degrees. Gas opens it again at its entry pressure."))
 		((Real,filmConductance,0,Attr::triggerPostLoad,"With trapping, or ``waterFlow = 'solved'``: what trapped water loses by films per pressure difference [m³/(Pa·s)], >= 0; 0 locks it. Drained: a cluster loses $q=K(P_c-P_e)$, $P_e$ its lowest entry pressure, and has the pressure $p_g-P_e$ (>= waterPressure); solved: each of its pores loses K times its excess over waterPressure."))
-		((Real,gasDensity,0,Attr::triggerPostLoad,"Density of the gas [kg/m³], >= 0; 0: weightless. With :yref:`fluidDensity<SinglePhaseFlowEngine.fluidDensity>`, that of the water, and :yref:`gravity<SinglePhaseFlowEngine.gravity>` both fluids are columns at rest: gasPressure and waterPressure are those at the middle of the inlet, and the capillary pressure grows by $(\\rho_w-\\rho_g)g$ with the height above it."))
+		((Real,gasDensity,0,Attr::triggerPostLoad,"Density of the gas [kg/m³], >= 0; 0: weightless. With :yref:`fluidDensity<SinglePhaseFlowEngine.fluidDensity>`, that of the water, and :yref:`gravity<SinglePhaseFlowEngine.gravity>` both fluids have weight. Drained, they are columns at rest: gasPressure and waterPressure are those at the middle of the inlet, and the capillary pressure grows by $(\\rho_w-\\rho_g)g$ with the height above it. Solved, they flow by $p-\\rho\\,g\\cdot x$, begin at rest, and gasPressure, waterPressure and the pressures that boundaries prescribe are those at that place. The density of the gas is constant, whatever gasLaw says."))
 		((std::string,waterFlow,"drained",Attr::triggerPostLoad,"``'drained'``: the water keeps :yref:`waterPressure<PoreNetworkEngine.waterPressure>` and gives way at once. ``'solved'``: it is viscous and compressible and has to flow to the outlet, which is held at waterPressure (or what :yref:`wallPressures<SinglePhaseFlowEngine.wallPressures>` says), and so is the gas; both load the grains, and the step foresees how these give way (stable at the time step of the dry grains). Attributes of :yref:`SinglePhaseFlowEngine` then apply [-]."))
 		((Real,gasViscosity,1.1e-5,Attr::triggerPostLoad,"Viscosity of the gas [Pa·s], > 0, with ``waterFlow = 'solved'``; methane."))
 		((Real,maxFilling,0.5,Attr::triggerPostLoad,"Share of a pore that gas may fill in one part of a time step [-], > 0, with ``waterFlow = 'solved'``: a long step is divided."))

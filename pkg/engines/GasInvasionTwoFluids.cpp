@@ -38,34 +38,46 @@ std::vector<Real> GasInvasionEngine::bodyPressures() const
 	return pressure;
 }
 
-capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
+/// What the pores hold, and under what pressures it was at the end of the last step.
+std::vector<capfrac::TwoFluidPore> GasInvasionEngine::twoFluidPores() const
 {
-	capfrac::TwoFluidNetwork network;
-	network.fluids          = twoFluids();
-	network.filmConductance = filmConductance, network.filmPressure = waterPressure;
-	network.pores.resize(nPores);
+	std::vector<capfrac::TwoFluidPore> pores(nPores);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-		auto& pore = network.pores[poreOfCell[c]];
+		auto& pore = pores[poreOfCell[c]];
 		pore.water += thickness * contents.water[c], pore.gas += thickness * contents.gas[c];
 		pore.held += thickness * contents.gas[c] * cellHeld[c];
 		pore.pressure += thickness * voids[c] * cellState[c];
 		pore.isGas = contents.phase[c] == capfrac::Phase::gas;
 	}
+	for (int p = 0; p < nPores; ++p) {
+		auto& pore  = pores[p];
+		pore.volume = poreVolume[p];
+		pore.pressure /= poreVolume[p];
+		pore.held = pore.isGas || !(pore.gas > 0) ? 0 : pore.held / pore.gas;
+		pore.head = headsAt(poreCentre[p]);
+	}
+	return pores;
+}
+
+capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
+{
+	capfrac::TwoFluidNetwork network;
+	network.fluids          = twoFluids();
+	network.filmConductance = filmConductance, network.filmPressure = waterPressure;
+	network.pores           = twoFluidPores();
 	const auto           bodies = bodyPressures();
 	capfrac::FlowNetwork boundaries;
 	boundaries.pores.resize(nPores);
 	addBoundaries(boundaries);
 	for (int p = 0; p < nPores; ++p) {
-		auto& pore    = network.pores[p];
-		pore.volume   = poreVolume[p];
+		auto& pore = network.pores[p];
 		// Cells of a torn sample may have a negative void, and share of what is there: sums that cancel leave round-off.
 		for (auto [amount, books] : { std::pair(&pore.gas, &gasIn), std::pair(&pore.water, &waterIn) })
 			if (*amount < 0 && *amount > -roundOff * pore.volume) *books -= std::exchange(*amount, 0);
-		pore.pressure /= poreVolume[p];
 		pore.bodyPressure = bodies[p];
-		pore.held     = pore.isGas || !(pore.gas > 0) ? 0 : pore.held / pore.gas;
 		if (pore.isGas) continue;
 		pore.fixedPressure = boundaries.pores[p].fixedPressure, pore.source = boundaries.pores[p].source;
+		if (pore.fixedPressure) *pore.fixedPressure += pore.head.water; // what is prescribed is the pressure at the datum
 	}
 	edgeOfThroat.clear();
 	for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
@@ -73,6 +85,7 @@ capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
 		if (!flow) continue;
 		capfrac::TwoFluidThroat throat { flow->a, flow->b, flow->conductance * viscosity, throatEntryPressure(static_cast<int>(e)) };
 		throat.advancing = edgeAdvancing[e] != 0;
+		throat.head      = headsAt(throatPlace(static_cast<int>(e)));
 		network.throats.push_back(throat);
 		edgeOfThroat.push_back(static_cast<int>(e));
 	}
@@ -85,7 +98,7 @@ void GasInvasionEngine::addReservoir(capfrac::TwoFluidNetwork& network) const
 	Real widest = 0;
 	for (const auto& throat : network.throats)
 		widest = math::max(widest, throat.conductance);
-	capfrac::TwoFluidPore reservoir;
+	capfrac::TwoFluidPore reservoir; // at the datum: without heads
 	reservoir.isGas    = true;
 	reservoir.volume   = reservoirSize();
 	reservoir.pressure = gasPressure;

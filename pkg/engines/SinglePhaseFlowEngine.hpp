@@ -55,7 +55,7 @@ protected:
 	capfrac::Skeleton    skeleton() const;
 	void                 addWalls(capfrac::Skeleton& skeleton) const;
 	/// Forces of the fluid's weight per thickness [N/m], to be added to those of the pores' pressures; no grains: it has none.
-	capfrac::FluidForces weightOfFluid() const;
+	virtual capfrac::FluidForces weightOfFluid() const;
 	std::string          placeOf(int pore) const;
 	/// Runs `work` on the pores; what it finds wrong is thrown again with the time and the pore's place.
 	template <class Work> auto namingPores(Work work) const

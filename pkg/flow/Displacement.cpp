@@ -17,24 +17,27 @@ namespace {
 
 	class Displacement {
 	public:
-		Displacement(TwoFluidNetwork& network_, const Skeleton* skeleton_, double dt_, PressureSolver& solver_, const DisplacementOptions& options_)
+		Displacement(TwoFluidNetwork& network_, const Skeleton* skeleton, double dt_, PressureSolver& solver_, const DisplacementOptions& options_)
 		        : network(network_)
-		        , skeleton(skeleton_)
 		        , dt(dt_)
 		        , solver(solver_)
 		        , options(options_)
 		{
 			for (const auto& pore : network.pores)
 				volume.push_back(pore.volume);
-			if (skeleton) gradient = sortedGradient(skeleton->gradient);
 			step.load.assign(volume.size(), 0), step.supply.assign(volume.size(), 0);
+			grains.skeleton = skeleton, grains.dt = dt;
+			if (!skeleton) return;
+			grains.gradient    = sortedGradient(skeleton->gradient);
+			grains.compression = skeleton->compression;
+			step.growth.assign(grains.compression.lag.size(), 0);
 		}
 
 		DisplacementStep run()
 		{
 			turnFull();
 			for (double left = dt; left > 0;) {
-				DisplacementPart part(network, volume, skeleton, gradient, dt, solver);
+				DisplacementPart part(network, volume, grains, solver);
 				double           h     = left;
 				const auto       trial = nextPart(part, h);
 				if (!trial) continue; // a pore has changed its phase at once
@@ -154,6 +157,8 @@ namespace {
 				step.load[i] += h / dt * trial.load[i];
 				step.supply[i] += h / dt * trial.supply[i];
 			}
+			for (std::size_t i = 0; i < trial.growth.size(); ++i)
+				step.growth[i] += trial.growth[i], grains.compression.lag[i] -= trial.growth[i];
 			volume = trial.volume;
 			time += h;
 			++step.parts;
@@ -177,11 +182,10 @@ namespace {
 		}
 
 		TwoFluidNetwork&          network;
-		const Skeleton*           skeleton;
 		double                    dt;
 		PressureSolver&           solver;
 		DisplacementOptions       options;
-		std::vector<VolumeEntry>  gradient;
+		DisplacedGrains           grains;
 		std::vector<double>       volume;
 		std::vector<std::uint8_t> turned; ///< pores that changed their phase at once in this step
 		double                    time = 0;

@@ -10,6 +10,10 @@
 /// below s is shut, and opens at the entry pressure again (no imbibition). The viscosity in a throat that gas has just passed is that of what
 /// fills the pore behind it, in proportion.
 ///
+/// Fluids with weight flow by the differences of p less their own heads. What the gas has to exceed the entry pressure by is the difference in the
+/// throat, gas and water both carried there from their pores; gas that is through is compared with the water in the body of the pore, for that is where
+/// its meniscus is. It is through where it exceeds both: s is at most the capillary pressure that gas at the entry pressure has in the body.
+///
 /// A step is backward Euler, in parts that end when a pore is full. Which throats are open belongs to the unknowns: found together
 /// with the pressures by Newton's method. Fluids move by the flows found, so both amounts are kept to round-off whatever the
 /// pressures; where what a pore holds does not fill it exactly, the next part starts from there and makes up for it.
@@ -35,6 +39,7 @@ struct PoreFilled {
 
 struct DisplacementStep {
 	std::vector<double>     load;    ///< pressures that load the grains, mean over the step [Pa]: p + s times the share of gas
+	std::vector<double>     growth;  ///< of the radii of compressed grains [m]; empty: rigid grains
 	std::vector<double>     supply;  ///< from outside into the pores of fixed pressure, mean over the step [m^3/s, as amount]
 	std::vector<GasEntry>   entries; ///< in the order of time
 	std::vector<PoreFilled> filled;  ///< in the order of time
@@ -52,7 +57,7 @@ struct DisplacementOptions {
 /// Moves both fluids for `dt` [s]. Amounts, pressures and phases in the network are brought to the end of the step; the
 /// volumes stay those of the beginning: the caller moves the grains, under `DisplacementStep::load`, in the same step.
 /// `skeleton` (null: grains stand still) as in coupledStep(): the step foresees how grains give way and is stable
-/// at the time step of the dry grains.
+/// at the time step of the dry grains. Grains that the fluids compress (`Skeleton::compression`) do so under the pressures that load them.
 ///
 /// Throws FlowError as checkTwoFluidNetwork() and checkSkeleton() do, for a dt that is not positive, and where pressures
 /// are not found (naming the pore); PressureSolverError as the solver does; GasLawError where the gas leaves the range of its law. The network is then as before.

@@ -19,69 +19,20 @@ namespace {
 
 } // namespace
 
-DisplacementPart::DisplacementPart(const TwoFluidNetwork& network_, const std::vector<double>& volume_, const Skeleton* skeleton_,
-        const std::vector<VolumeEntry>& gradient_, double dt_, PressureSolver& solver_)
+DisplacementPart::DisplacementPart(const TwoFluidNetwork& network_, const std::vector<double>& volume_, const DisplacedGrains& grains_, PressureSolver& solver_)
         : network(network_)
         , volume(volume_)
-        , skeleton(skeleton_)
-        , gradient(gradient_)
-        , dt(dt_)
+        , grains(grains_)
+        , softness(grains_.compression)
         , solver(solver_)
 {
+	std::fill(softness.lag.begin(), softness.lag.end(), 0);
 	for (const auto& pore : network.pores)
 		share.push_back(pore.isGas ? 1 : gasShare(network.fluids, pore));
 	findBeyond();
 	for (std::size_t t = 0; t < network.throats.size(); ++t)
 		viscosity.push_back(viscosityIn(static_cast<int>(t)));
 	if (network.filmConductance > 0) findLocked();
-}
-
-void DisplacementPart::findBeyond()
-{
-	for (const auto& t : network.throats) {
-		const bool a = network.pores[t.a].isGas, b = network.pores[t.b].isGas;
-		beyond.push_back(a == b ? -1 : a ? t.b : t.a);
-	}
-}
-
-double DisplacementPart::heldBehind(int throat) const
-{
-	return std::min(network.throats[throat].entryPressure, network.pores[beyond[throat]].bodyPressure);
-}
-
-double DisplacementPart::viscosityIn(int throat) const
-{
-	const auto& fluids = network.fluids;
-	if (const int pore = beyond[throat]; pore >= 0) return share[pore] * fluids.gasViscosity + (1 - share[pore]) * fluids.waterViscosity;
-	return network.pores[network.throats[throat].a].isGas ? fluids.gasViscosity : fluids.waterViscosity;
-}
-
-void DisplacementPart::findLocked()
-{
-	FlowNetwork water;
-	water.pores.resize(network.pores.size());
-	for (std::size_t i = 0; i < network.pores.size(); ++i)
-		if (!network.pores[i].isGas) water.pores[i].fixedPressure = network.pores[i].fixedPressure;
-	for (const auto& t : network.throats)
-		if (!network.pores[t.a].isGas && !network.pores[t.b].isGas) water.throats.push_back({ t.a, t.b, t.conductance });
-	const auto clusters = findClusters(water);
-	for (std::size_t i = 0; i < network.pores.size(); ++i)
-		locked.push_back(!network.pores[i].isGas && !clusters.grounded[clusters.ofPore[i]]);
-}
-
-void DisplacementPart::findFlows(DisplacementTrial& trial) const
-{
-	trial.throatFlow.resize(network.throats.size());
-	for (std::size_t t = 0; t < network.throats.size(); ++t) {
-		const auto&  throat = network.throats[t];
-		const double g      = throat.conductance / viscosity[t];
-		const double drop   = trial.pressure[throat.a] - trial.pressure[throat.b];
-		if (beyond[t] < 0) trial.throatFlow[t] = g * drop;
-		else if (!trial.open[t])
-			trial.throatFlow[t] = 0;
-		else // negative only on the way to the solution: gas never comes back
-			trial.throatFlow[t] = g * (drop - (beyond[t] == throat.b ? 1 : -1) * heldBehind(static_cast<int>(t)));
-	}
 }
 
 void DisplacementPart::moveAmounts(DisplacementTrial& trial, double h) const
@@ -95,7 +46,7 @@ void DisplacementPart::moveAmounts(DisplacementTrial& trial, double h) const
 	trial.films = 0;
 	for (std::size_t i = 0; i < locked.size(); ++i)
 		if (locked[i]) {
-			const double flow = network.filmConductance * std::max(0.0, trial.pressure[i] - network.filmPressure);
+			const double flow = network.filmConductance * std::max(0.0, excessOverFilms(trial, static_cast<int>(i)));
 			trial.water[i] -= h * flow;
 			trial.films += flow;
 		}
@@ -140,10 +91,12 @@ void DisplacementPart::evaluate(DisplacementTrial& trial, double h) const
 	for (std::size_t i = 0; i < share.size(); ++i)
 		trial.load[i] = trial.pressure[i] + share[i] * network.pores[i].held;
 	trial.volume = volume;
-	if (skeleton) {
-		const auto rates = volumeRates(gradient, *skeleton, trial.load, dt);
+	if (grains.skeleton) {
+		const auto rates = volumeRates(grains.gradient, *grains.skeleton, trial.load, grains.dt);
 		for (std::size_t i = 0; i < rates.size(); ++i)
 			trial.volume[i] += h * rates[i];
+		trial.growth = radiusGrowth(grains.compression, trial.load);
+		addGrowth(grains.compression, trial.growth, trial.volume);
 	}
 	supplyReservoirs(trial, h);
 }
@@ -169,30 +122,11 @@ double DisplacementPart::scaleOf(const DisplacementTrial& trial) const
 	return scale;
 }
 
-/// Once the pressures are those of the open throats: shuts what gas would come back through, all of it, else opens the throat that
-/// gas exceeds most. One at a time, for what passes there may keep it out of the others; and never for pressures on the way to the solution, since
-/// a throat that has once been passed stays open at less.
-bool DisplacementPart::openAndShut(DisplacementTrial& trial, double margin) const
+/// Of what flows are differences of [Pa].
+double DisplacementPart::sizeOf(const DisplacementTrial& trial, int i) const
 {
-	bool   changed = false;
-	int    next    = -1;
-	double most    = margin;
-	for (std::size_t t = 0; t < beyond.size(); ++t) {
-		if (beyond[t] < 0) continue;
-		const auto&  throat = network.throats[t];
-		const double drop   = (beyond[t] == throat.b ? 1 : -1) * (trial.pressure[throat.a] - trial.pressure[throat.b]);
-		if (trial.open[t] && drop < heldBehind(static_cast<int>(t))) trial.open[t] = 0, changed = true;
-		else if (const double excess = drop - (throat.advancing ? heldBehind(static_cast<int>(t)) : throat.entryPressure); !trial.open[t] && excess > most)
-			next = static_cast<int>(t), most = excess;
-	}
-	if (changed || next < 0) return changed;
-	trial.open[next] = 1;
-	return true;
-}
-
-double DisplacementPart::conductance(const DisplacementTrial& trial, std::size_t t) const
-{
-	return beyond[t] < 0 || trial.open[t] ? network.throats[t].conductance / viscosity[t] : 0;
+	const auto& head = network.pores[i].head;
+	return std::abs(trial.pressure[i]) + std::abs(head.water) + std::abs(head.gas);
 }
 
 std::vector<double> DisplacementPart::errors(const DisplacementTrial& trial, double h) const
@@ -204,7 +138,7 @@ std::vector<double> DisplacementPart::errors(const DisplacementTrial& trial, dou
 		noise[i] = roundOff * volume[i];
 	for (std::size_t t = 0; t < network.throats.size(); ++t) {
 		const auto&  throat = network.throats[t];
-		const double flow   = roundOff * h * conductance(trial, t) * (std::abs(trial.pressure[throat.a]) + std::abs(trial.pressure[throat.b]));
+		const double flow   = roundOff * h * conductance(trial, t) * (sizeOf(trial, throat.a) + sizeOf(trial, throat.b));
 		noise[throat.a] += flow, noise[throat.b] += flow;
 	}
 	for (std::size_t i = 0; i < error.size(); ++i) {
@@ -227,14 +161,15 @@ void DisplacementPart::correct(DisplacementTrial& trial, double h)
 		linear.throats.push_back({ throat.a, throat.b, conductance(trial, t) });
 	}
 	for (std::size_t i = 0; i < locked.size(); ++i)
-		if (locked[i] && trial.pressure[i] > network.filmPressure) linear.links.push_back({ static_cast<int>(i), 0, network.filmConductance });
+		if (locked[i] && excessOverFilms(trial, static_cast<int>(i)) > 0) linear.links.push_back({ static_cast<int>(i), 0, network.filmConductance });
 	Assembly assembly(linear);
 	for (std::size_t i = 0; i < volume.size(); ++i) {
 		const int pore = static_cast<int>(i);
 		assembly.add(pore, pore, storage(trial, pore) / h);
 		assembly.addRight(pore, -residual(trial, pore) / h);
 	}
-	if (skeleton) addMobility(assembly, gradient, *skeleton, dt);
+	if (grains.skeleton) addMobility(assembly, grains.gradient, *grains.skeleton, grains.dt);
+	assembly.addCompression(softness, h);
 	FlowStep step;
 	assembly.solve(solver, step);
 	trial.factored += step.factored;
@@ -262,6 +197,7 @@ DisplacementTrial DisplacementPart::end(double h)
 	const std::size_t n = network.pores.size();
 	for (const auto& pore : network.pores)
 		trial.pressure.push_back(pore.fixedPressure.value_or(pore.pressure));
+	trial.openings.assign(beyond.size(), 0);
 	trial.water.resize(n), trial.gas.resize(n), trial.held.resize(n), trial.load.resize(n), trial.supply.resize(n);
 	for (std::size_t t = 0; t < beyond.size(); ++t)
 		trial.open.push_back(network.throats[t].advancing && beyond[t] >= 0); // gas may be on both sides by now

@@ -21,6 +21,8 @@ namespace {
 
 	bool notNegative(double value) { return value >= 0 && std::isfinite(value); }
 
+	bool isFinite(const FluidHeads& head) { return std::isfinite(head.water) && std::isfinite(head.gas); }
+
 	void checkPore(int i, const TwoFluidPore& pore)
 	{
 		// Names are put together only when something is wrong: this runs every step.
@@ -31,6 +33,7 @@ namespace {
 		if (!notNegative(pore.held)) refuse(named("held pressure [Pa]"), pore.held, ">= 0", i);
 		if (!notNegative(pore.bodyPressure)) refuse(named("capillary pressure in the body [Pa]"), pore.bodyPressure, ">= 0", i);
 		if (!std::isfinite(pore.pressure)) refuse(named("pressure [Pa]"), pore.pressure, "a finite number", i);
+		if (!isFinite(pore.head)) refuse(named("head [Pa]"), std::isfinite(pore.head.water) ? pore.head.gas : pore.head.water, "a finite number", i);
 		if (!std::isfinite(pore.source)) refuse(named("source [m^3/s]"), pore.source, "a finite number", i);
 		if (pore.fixedPressure && !std::isfinite(*pore.fixedPressure)) refuse(named("prescribed pressure [Pa]"), *pore.fixedPressure, "a finite number", i);
 	}
@@ -55,10 +58,13 @@ void checkTwoFluidNetwork(const TwoFluidNetwork& network)
 		checkPore(i, network.pores[i]);
 	for (std::size_t t = 0; t < network.throats.size(); ++t) {
 		const auto&       throat = network.throats[t];
-		if (throat.a >= 0 && throat.a < n && throat.b >= 0 && throat.b < n && throat.a != throat.b && notNegative(throat.conductance) && notNegative(throat.entryPressure)) continue;
+		if (throat.a >= 0 && throat.a < n && throat.b >= 0 && throat.b < n && throat.a != throat.b && notNegative(throat.conductance) && notNegative(throat.entryPressure)
+		    && isFinite(throat.head))
+			continue;
 		const std::string name = "throat " + std::to_string(t) + ": ";
 		if (!notNegative(throat.conductance)) refuse(name + "conductance times viscosity [m^3]", throat.conductance, ">= 0");
 		if (!notNegative(throat.entryPressure)) refuse(name + "entry pressure [Pa]", throat.entryPressure, ">= 0");
+		if (!isFinite(throat.head)) refuse(name + "head [Pa]", std::isfinite(throat.head.water) ? throat.head.gas : throat.head.water, "a finite number");
 		throw FlowError(name + "joins pores " + std::to_string(throat.a) + " and " + std::to_string(throat.b) + ", allowed: two different ones of " + std::to_string(n));
 	}
 	if (!notNegative(network.filmConductance)) refuse("conductance of films [m^3/(Pa s)]", network.filmConductance, ">= 0");

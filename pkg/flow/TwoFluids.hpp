@@ -11,6 +11,9 @@
 ///
 /// with the bulk modulus K_f of the water, the gas's equation of state rho, and p_0 the absolute pressure at gauge
 /// pressure zero. That sets p.
+///
+/// Fluids may have weight: every pore and throat carries the heads rho g.x of both at its place x, reckoned from one datum for all. A fluid
+/// is at rest where its pressure less its head is the same all over. The densities in the heads are constants.
 
 #include "../fluids/EquationOfState.hpp"
 
@@ -28,6 +31,11 @@ struct TwoFluids {
 	double          datum = 101325; ///< p_0 [Pa] > 0
 };
 
+/// Heads of both fluids at a place, rho g.x [Pa]: what their pressure at rest exceeds that at the datum by. 0: they have no weight.
+struct FluidHeads {
+	double water = 0, gas = 0;
+};
+
 struct TwoFluidPore {
 	double                volume   = 0; ///< V [m^3] > 0
 	double                water    = 0; ///< m_w [m^3 at gauge pressure zero] >= 0
@@ -38,6 +46,7 @@ struct TwoFluidPore {
 	double                bodyPressure = 0; ///< capillary pressure of a meniscus in the body of the pore [Pa] >= 0; what gas that enters holds, but at most the entry pressure
 	double                source   = 0; ///< of the fluid that flows through it [m^3/s, as amount]
 	std::optional<double> fixedPressure; ///< [Pa]: a reservoir of that fluid; gone once gas has filled a water pore
+	FluidHeads            head {}; ///< at the place where it has the pressure p
 };
 
 struct TwoFluidThroat {
@@ -45,6 +54,7 @@ struct TwoFluidThroat {
 	double conductance   = 0; ///< G times viscosity [m^3] >= 0
 	double entryPressure = 0; ///< what gas on one side has to exceed the water on the other by to pass [Pa] >= 0
 	bool   advancing     = false; ///< gas has passed it and fills the pore behind it
+	FluidHeads head {}; ///< where gas has to exceed the entry pressure
 };
 
 struct TwoFluidNetwork {
@@ -52,7 +62,7 @@ struct TwoFluidNetwork {
 	std::vector<TwoFluidPore>   pores;
 	std::vector<TwoFluidThroat> throats;
 	/// Films of water along the grains: conductance from a pore of water that is cut off from every boundary
-	/// to the outside [m^3/(Pa s)] >= 0 (0: it is locked), and the pressure there [Pa].
+	/// to the outside [m^3/(Pa s)] >= 0 (0: it is locked), and the pressure there, at the datum [Pa].
 	double filmConductance = 0, filmPressure = 0;
 };
 

@@ -50,7 +50,7 @@ KEYS = (
     Key("gas", "snapOff", bool, "-", False, "With imbibition: whether water films snap the gas in throats off; contactAngle < 45."),
     notNegative("gas", "filmConductance", "m^3/(Pa s)", 0.0, "With trapping: what trapped water loses by films per pressure difference; 0 locks it."),
     notNegative("gas", "waterDensity", "kg/m^3", 0.0, "Density of the water; 0 is weightless."),
-    notNegative("gas", "gasDensity", "kg/m^3", 0.0, "Density of the gas; 0 is weightless."),
+    notNegative("gas", "gasDensity", "kg/m^3", 0.0, "Density of the gas as far as its weight goes, constant; 0 is weightless."),
     Key("gas", "gravity", list, "m/s^2", (0.0, 0.0), "Acceleration of gravity [x, y] on water and gas (not on the grains); pressures are those at the inlet."),
     positive("gas", "viscosity", "Pa s", 1.1e-5, "Viscosity of the gas, with water.flow = 'solved'; methane."),
     Key("water", "flow", str, "-", "drained", "Drained: water at a constant pressure that gives way at once; solved: viscous, compressible, flows to the outlet.", choices=("drained", "solved")),
@@ -197,8 +197,6 @@ def _checkDisplacement(gas, water, source):
             raise CaseError(f"{source}: gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved', as the pressure of the gas follows from its mass")
         if gas["imbibition"]:
             raise CaseError(f"{source}: gas.imbibition = true, allowed: false with water.flow = 'solved': gas does not recede")
-        if any(gas["gravity"]) and (gas["waterDensity"] or gas["gasDensity"]):
-            raise CaseError(f"{source}: gas.gravity = {list(gas['gravity'])}, allowed: [0, 0], or fluids without weight, with water.flow = 'solved'")
     if gas["snapOff"] and gas["contactAngle"] >= 45:
         raise CaseError(f"{source}: gas.contactAngle = {gas['contactAngle']}, allowed: < 45 [degrees] with gas.snapOff (films in corners of 45 degrees swell while both angles are below 90)")
     if gas["snapOff"] and not gas["imbibition"]:

@@ -1,7 +1,6 @@
-/// flow/Displacement: gas and water in small networks against closed forms, amounts, thresholds, grains that give way.
+/// flow/Displacement: gas and water in small networks against closed forms, amounts, thresholds.
 
-#include "FlowNetworks.hpp"
-#include "flow/Displacement.hpp"
+#include "TwoFluidNetworks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,33 +11,6 @@ namespace capfrac {
 using namespace samples;
 
 namespace {
-
-	/// Fluids so stiff at the pressures of these tests (about one) that volumes are what they are: compressibilities of 1e-9.
-	TwoFluids stiffFluids(double waterViscosity = 1, double gasViscosity = 1e-9)
-	{
-		TwoFluids fluids;
-		fluids.waterBulkModulus = 1e9, fluids.datum = 1e9;
-		fluids.waterViscosity = waterViscosity, fluids.gasViscosity = gasViscosity;
-		return fluids;
-	}
-
-	/// The meniscus in its body is as tight as in any throat, so that gas is held back all the time.
-	TwoFluidPore waterPore(const TwoFluids& fluids, double volume, double pressure = 0)
-	{
-		TwoFluidPore pore;
-		pore.bodyPressure = 1e9;
-		pore.volume = volume, pore.pressure = pressure;
-		pore.water  = volume * (1 + pressure / fluids.waterBulkModulus);
-		return pore;
-	}
-
-	TwoFluidPore gasPore(const TwoFluids& fluids, double volume, double pressure)
-	{
-		TwoFluidPore pore;
-		pore.volume = volume, pore.pressure = pressure, pore.isGas = true;
-		pore.gas    = volume * gasRatio(fluids, pressure);
-		return pore;
-	}
 
 	/// A gas reservoir at `pressure`, then `n` pores of water of volume one, the last held at pressure zero.
 	TwoFluidNetwork tube(const TwoFluids& fluids, int n, double pressure, double entryPressure)
@@ -53,20 +25,6 @@ namespace {
 		}
 		network.pores.back().fixedPressure = 0;
 		return network;
-	}
-
-	void expectKept(const DisplacementStep& step)
-	{
-		expectClosed(step.water);
-		expectClosed(step.gas);
-	}
-
-	double held(const TwoFluidNetwork& network)
-	{
-		double sum = 0;
-		for (const auto& pore : network.pores)
-			sum += pore.gas + pore.water;
-		return sum;
 	}
 
 } // namespace
@@ -251,20 +209,9 @@ TEST(Displacement, RateRaisesThePressureUntilTheThroatOpens)
 
 TEST(Displacement, AmountsAreKeptInANetworkWithoutOrder)
 {
-	Random    random(5);
-	TwoFluids fluids;
-	fluids.datum = 5, fluids.waterBulkModulus = 100, fluids.waterViscosity = 1, fluids.gasViscosity = 0.1;
-	TwoFluidNetwork network;
-	network.fluids          = fluids;
-	network.filmConductance = 1e-3;
-	for (int i = 0; i < 150; ++i) {
-		const double volume = random.uniform(0.1, 2);
-		network.pores.push_back(i < 3 ? gasPore(fluids, volume, 1) : waterPore(fluids, volume));
-		if (i > 0) network.throats.push_back({ random.below(i), i, random.uniform(0.1, 2), random.uniform(0.2, 1) });
-		if (i > 1) network.throats.push_back({ i - 1, i, random.uniform(0.1, 2), random.uniform(0.2, 1) });
-	}
-	network.pores[0].source         = 0.5;
-	network.pores[149].fixedPressure = 0;
+	Random         random(5);
+	auto           network = disorderedTwoFluids(random);
+	const auto     fluids  = network.fluids;
 	PressureSolver solver;
 	int            filled = 0, entered = 0;
 	for (int k = 0; k < 200; ++k) {
@@ -282,32 +229,6 @@ TEST(Displacement, AmountsAreKeptInANetworkWithoutOrder)
 	}
 	EXPECT_GT(filled, 30);
 	EXPECT_GE(entered, filled);
-}
-
-TEST(Displacement, GrainsThatGiveWayTakeUpTheGas)
-{
-	// One pore of gas, fed at a rate, on a piston (area 1, mass 1) held by a spring of stiffness 10, and damped; at rest
-	// the force of the gas is that of the spring: p = 10 (V - 1), (p + p_0) V = p_0 m, m = 1 + what was fed.
-	TwoFluids fluids;
-	fluids.datum = 2;
-	TwoFluidNetwork network;
-	network.fluids = fluids;
-	network.pores  = { gasPore(fluids, 1, 0) };
-	PressureSolver solver;
-	double         x = 0, v = 0;
-	const double   dt = 0.05;
-	for (int k = 0; k < 4000; ++k) {
-		network.pores[0].volume = 1 + x, network.pores[0].source = k < 1000 ? 0.01 : 0;
-		Skeleton skeleton;
-		skeleton.gradient = { { 0, 0, 1 } };
-		skeleton.velocity = { v }, skeleton.mass = { 1 }, skeleton.force = { -10 * x - v };
-		const auto step = displace(network, &skeleton, dt, solver);
-		expectKept(step);
-		v += dt * (skeleton.force[0] + step.load[0]), x += dt * v;
-	}
-	const double m = 1 + 0.01 * dt * 1000; // V solves (10 (V - 1) + 2) V = 2 m
-	const double exact = (8 + std::sqrt(64 + 80 * m)) / 20;
-	EXPECT_NEAR(1 + x, exact, 1e-7);
 }
 
 TEST(Displacement, AFailedStepLeavesTheNetworkAsItWas)

@@ -5,28 +5,12 @@ import math
 import numpy as np
 import pytest
 from yade import O
-from yade.wrapper import ForceResetter, GasInvasionEngine
 
 from capfrac import buoyancy
 from capfrac.errors import CaseError
 
 GAMMA, R, G = 0.05, 1e-3, 9.81
 RHO = 1000.0
-
-
-@pytest.fixture
-def chain(handScene):
-    """A function (gaps, gravity, **attributes) -> engine: grains one on the other, ``gaps`` [m] off the left wall and pressed into the right one, inlet in the lower left corner."""
-
-    def make(gaps, gravity=G, **attributes):
-        grains = [(gap + R, R + 1.98 * R * k, R) for k, gap in enumerate(gaps)]
-        width = min(gaps) + 1.98 * R
-        handScene(grains, (0, width, 0, grains[-1][1] + 1.01 * R))
-        gas = GasInvasionEngine(inletFrom=0, inletTo=R, fluidDensity=RHO, gravity=(0, -gravity), poreMode="triangle", checkInvariants=True, **attributes)
-        O.engines = [ForceResetter(), gas]
-        return O.engines[1]
-
-    return make
 
 
 def equation15(gap, r):
