@@ -206,8 +206,8 @@ def _touching(nGrains):
 def advance(steps):
     """Run that many time steps here and now.
 
-    ``O.run(steps, True)`` looks for the end only every 40 ms, which is longer than many a stretch of steps takes; and an
-    engine's exception arrives as it was thrown. Interrupted (Ctrl-C), the scene is between two steps.
+    ``O.run(steps, True)`` looks for the end only every 40 ms, which is longer than many a stretch of steps takes, and
+    misses an engine's exception where the run was over before it looked at all; here it arrives as it was thrown. Interrupted (Ctrl-C), the scene is between two steps.
     """
     from yade import O
 
