@@ -14,126 +14,19 @@ import math
 import platform
 import time
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 
-from capfrac import export, figures, fracture, history, mode, sediment, snapshot
-from capfrac.case import MAX_SIZE_RATIO, readCase, resolveCase
-from capfrac.errors import CapfracError, CaseError, RunFolderError, SceneError
+from capfrac import casescene, export, figures, fracture, history, mode, sediment, snapshot
+from capfrac.case import readCase, resolveCase
+from capfrac.errors import CapfracError, RunFolderError, SceneError
+from capfrac.gasengine import addMenisci, startInjection  # noqa: F401 (part of this module for scripts)
 from capfrac.runfolder import RunFolder, holdingInterrupts
 
 #: Time steps between looks at the run [-]; short enough that Ctrl-C answers at once.
 CHUNK = 50
 #: Time steps between checkpoints [-]: a second or two of 300 grains. A number of steps, not a time: see Run.checkpoint.
 CHECKPOINT_STEPS = 100 * CHUNK
-
-
-def startInjection(start, increment, max, pores=0, wall="bottom", outlet="top", stretch=None, points=(), waterPressure=0.0, **attributes):
-    """Put a ``GasInvasionEngine`` (label ``gas``) into the current scene and prepare it; returns the engine.
-
-    ``start``, ``increment``, ``max``: the ramp of the capillary pressure [Pa]. The inlet is ``pores`` neighbouring pores
-    around the middle of ``wall``, or the ``stretch`` (from, to) [m] of it, or the pores that hold ``points`` [m]. All
-    other attributes of the engine can be given by name. Raises :class:`CaseError` for an impossible inlet, and
-    :class:`SceneError` for a scene that cannot be followed (RuntimeError of the engine); the scene then is as before.
-    """
-    from yade.wrapper import GasInvasionEngine
-
-    sediment.engine("servo")  # a scene without one is refused before anything is made
-    try:
-        gas = GasInvasionEngine(label="gas", gasPressure=waterPressure + start, pressureIncrement=increment, waterPressure=waterPressure,
-                                maxPressure=waterPressure + max, inletWall=wall, outletWall=outlet, **attributes)
-    except ValueError as problem:
-        raise CaseError(str(problem)) from None
-    try:
-        if points:
-            gas.inletPoints = [tuple(map(float, point)) for point in points]
-        else:
-            gas.inletFrom, gas.inletTo = stretch or gas.inletStretch(pores, _middle(wall))
-        gas.prepare()
-    except ValueError as problem:
-        raise CaseError(f"inlet: {problem}") from None
-    except RuntimeError as problem:
-        raise SceneError(str(problem)) from None
-    return sediment.insertFluid(gas)
-
-
-def addMenisci(law="bridge", **attributes):
-    """Put a ``MeniscusCohesionEngine`` (label ``menisci``) of that ``law`` before the gas engine of :func:`startInjection`; returns the engine.
-
-    Interfacial tension and contact angle are the gas's unless given. Raises :class:`CaseError` for an attribute out of range, :class:`SceneError` where
-    the scene has no engine ``gas``.
-    """
-    from yade import O
-    from yade.wrapper import MeniscusCohesionEngine
-
-    gas = sediment.engine("gas")
-    try:
-        menisci = MeniscusCohesionEngine(label="menisci", law=law, **attributes)
-    except ValueError as problem:
-        raise CaseError(str(problem)) from None
-    engines = list(O.engines)
-    engines.insert(engines.index(gas), menisci)
-    O.engines = engines
-    return sediment.engine("menisci")
-
-
-def _middle(wall):
-    ends = ("bottom", "top") if wall in ("left", "right") else ("left", "right")
-    axis = 1 if wall in ("left", "right") else 0
-    walls = sediment.wallBodies()
-    return 0.5 * sum(walls[end].state.pos[axis] for end in ends)
-
-
-def _makeSample(case, say):
-    """The case's sample in the (empty) current scene: grains at rest under the stresses, contacts bonded."""
-    grains, cohesion = case["grains"], case["cohesion"]
-    packing = None
-    if grains["packing"]:
-        packing = sediment.readPacking(Path(case["case"].get("folder", ".")) / grains["packing"])
-        grains["rMin"], grains["rMax"] = float(packing[2].min()), float(packing[2].max())
-        if grains["rMax"] > MAX_SIZE_RATIO * grains["rMin"]:
-            raise CaseError(f"{grains['packing']}: radii from {grains['rMin']:g} to {grains['rMax']:g} m, a ratio of {grains['rMax'] / grains['rMin']:.3g}; allowed: up to {MAX_SIZE_RATIO}")
-    sample = sediment.Sediment(
-        grainCount=grains["count"] if packing is None else len(packing[0]),
-        **{name: grains[name] for name in ("rMin", "rMax", "seed", "density", "normalStiffness", "shearStiffness", "friction", "wallFriction", "aspect")})
-    sediment.makeSample(sample, case["stress"]["vertical"], case["stress"]["horizontal"], packing, progress=say)
-    nBonds = sediment.bond(cohesion["chi"] * case["gas"]["interfacialTension"], cohesion["tensileStrength"], cohesion["shearStrength"])
-    sediment.relax(progress=say)
-    return nBonds
-
-
-def _inletPoints(inlet, walls):
-    left, right, bottom, top = (walls[name].state.pos[axis] for name, axis in (("left", 0), ("right", 0), ("bottom", 1), ("top", 1)))
-    if inlet["middle"] is None:
-        return [(left + x, bottom + y) for x, y in inlet["points"]]
-    x, y = 0.5 * (left + right), 0.5 * (bottom + top)
-    circles = np.linspace(0, inlet["middle"], 4)[1:]
-    return [(x, y)] + [(x + r * math.cos(angle), y + r * math.sin(angle)) for r in circles for angle in np.arange(8) * math.pi / 4]
-
-
-def _startGas(case):
-    inlet, gas, water, ramp, supply, network = (case[section] for section in ("inlet", "gas", "water", "ramp", "supply", "network"))
-    walls = sediment.wallBodies()
-    axis = 1 if inlet["wall"] in ("left", "right") else 0
-    low = walls["bottom" if axis else "left"].state.pos[axis]
-    stretch = None if inlet["from"] is None else (low + inlet["from"], low + inlet["to"])
-    engine = startInjection(
-        ramp["start"], ramp["increment"], ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"], stretch,
-        _inletPoints(inlet, walls),
-        interfacialTension=gas["interfacialTension"], contactAngle=math.radians(gas["contactAngle"]), entryLaw=gas["entryLaw"],
-        gasLaw=gas["law"], gasMolarMass=gas["molarMass"], gasTemperature=gas["temperature"], gasDeviation=gas["deviation"],
-        gasTable=[tuple(map(float, pair)) for pair in gas["table"]], pressureDatum=gas["datum"],
-        gasControl=supply["control"], pressureProgram=[float(p) for p in supply["program"]], gasRate=supply["rate"],
-        reservoirVolume=supply["reservoirVolume"], historyInterval=supply["historyInterval"],
-        **{name: gas[name] for name in ("trapping", "imbibition", "snapOff", "filmConductance", "gasDensity")},
-        waterFlow=water["flow"], viscosity=water["viscosity"], bulkModulus=water["bulkModulus"], conductanceFactor=water["conductanceFactor"], gasViscosity=gas["viscosity"],
-        fluidDensity=gas["waterDensity"], gravity=tuple(gas["gravity"]), poreMode=network["poreMode"], mergeTolerance=network["mergeTolerance"], closedPore=network["closedPore"],
-        openingThreshold=network["openingThreshold"], checkInvariants=network["checkInvariants"],
-        unbalancedTolerance=ramp["unbalanced"], minLevelSteps=ramp["minLevelSteps"], invasionInterval=ramp["invasionInterval"], maxLevelSteps=ramp["maxLevelSteps"])
-    if case["cohesion"]["menisci"] != "none":
-        addMenisci(case["cohesion"]["menisci"], chi=case["cohesion"]["meniscusChi"])
-    return engine
 
 
 class Run:
@@ -161,8 +54,8 @@ class Run:
             self.start = snapshot.load(self.folder.sub("snapshots") / "start.npz")
             self.begun = True
             return
-        nBonds = _makeSample(self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}"))
-        self.gas = _startGas(self.case)
+        nBonds = casescene.makeSample(self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}"))
+        self.gas = casescene.startGas(self.case)
         throats = [p for p in self.gas.throats()["entryPressure"] if p > 0]
         bonded = sum(1 for i in O.interactions if i.isReal and not i.phys.cohesionBroken)
         self.folder.writeSummary(

@@ -36,13 +36,13 @@ COARSE = {"coarse-ramp": dict(case="figure15"), "coarse-ramp-ideal": dict(case="
 def sampleOf(case, seed):
     """Path of the saved sample of a shipped case."""
     from capfrac.case import readCase
-    from capfrac.injection import _makeSample
+    from capfrac.casescene import makeSample
 
     path = PLACE / f"{case}-{seed}.yade.gz"
     if not path.exists():
         PLACE.mkdir(parents=True, exist_ok=True)
         O.reset()
-        _makeSample(readCase(case, [f"grains.seed={seed}"]), lambda *progress: None)
+        makeSample(readCase(case, [f"grains.seed={seed}"]), lambda *progress: None)
         O.save(str(path), quiet=True)
     return path
 
