@@ -129,7 +129,8 @@ def _drawAdvance(axes, found, advance):
         axes.plot(time[mine] / 10.0**power, distance[mine], marker="o", markersize=2.5, linewidth=1.0, drawstyle="steps-post", label=f"tip {n}" if n <= 6 else None, zorder=3)
     axes.set(xlabel=f"time since the first pore [{quantity(10.0**power, 's').split()[1]}]", ylim=(0, None))
     axes.set_ylabel("tip to inlet / mean diameter", fontsize=8)
-    axes.legend(fontsize=6.5, frameon=False, loc="upper left")
+    axes.set_zorder(load.get_zorder() + 1), axes.patch.set_visible(False)  # tips and their names over the pressure
+    axes.legend(fontsize=6.5, loc="lower right", framealpha=0.85, edgecolor="none")
     for each in (axes, load):
         each.tick_params(labelsize=7)
         each.spines["top"].set_visible(False)
