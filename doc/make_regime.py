@@ -39,10 +39,11 @@ def exponents(rows):
     lines = ["| cohesion χ | exponent, by the modes | exponent, by displacement | σ'_H r*/γ, by the modes (bracket) | σ'_H r*/γ, by displacement | theory |", "|---|---|---|---|---|---|"]
     fits, together = regime_map.laws(regime_map.changes(rows)), regime_map.numbers(rows)
     for chi, entry in together.items():
-        cells = [f"{fits[chi][o].exponent:.2f}" + (f" ± {fits[chi][o].error:.2f}" if np.isfinite(fits[chi][o].error) else " (two stresses)") if o in fits[chi] else "-" for o in ("change", "gaveWay")]
+        cells = [f"{fits[chi][o].exponent:.3f}" + (f" ± {fits[chi][o].error:.3f}" if np.isfinite(fits[chi][o].error) else " (two stresses)") if o in fits[chi] else "-" for o in ("change", "gaveWay")]
         a = float(np.median([row["aOverR"] for row in rows if row["cohesion.chi [-]"] == chi]))
         change = entry["change"]
-        lines.append(f"| {chi:g} | {' | '.join(cells)} | {change.radius:.2g} ({change.low:.2g}-{change.high:.2g}) | {entry['gaveWay']:.2g} | {max(regime.RIGID - chi * (regime.ALPHA / a) ** 0.5, 0):.2g} |")
+        bracket = f"{change.low:.2g}-{change.high:.2g}" if np.isfinite(change.low) else f"up to {change.high:.2g}"
+        lines.append(f"| {chi:g} | {' | '.join(cells)} | {change.radius:.2g} ({bracket}) | {entry['gaveWay']:.2g} | {max(regime.RIGID - chi * (regime.ALPHA / a) ** 0.5, 0):.2g} |")
     return lines
 
 

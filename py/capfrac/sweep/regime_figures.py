@@ -78,8 +78,8 @@ def _measured(axes, found, laws):
             axes.plot(entry["gaveWay"], y, color="black", marker="s", markersize=5, markerfacecolor="white", zorder=6)
     law = laws.get("gaveWay")
     if law and np.isfinite(law.error):  # two radii say nothing about their scatter
-        error = f" \\pm {law.error:.2f}"
-        axes.text(0.97, 0.965, f"$r^* \\propto {{\\sigma'_H}}^{{{law.exponent:.2f}{error}}}$", transform=axes.transAxes, ha="right", va="top", fontsize=9,
+        error = f" \\pm {law.error:.3f}"
+        axes.text(0.97, 0.965, f"$r^* \\propto {{\\sigma'_H}}^{{{law.exponent:.3f}{error}}}$", transform=axes.transAxes, ha="right", va="top", fontsize=9,
                   bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5, "alpha": 0.85})
 
 
