@@ -125,6 +125,7 @@ void GasInvasionEngine::displaceWater()
 	reservoirMass      = density * network.pores.back().gas;
 	injectedGasMass += density * (done.gas.in - done.gas.out);
 	gasPressure = network.pores.back().pressure;
+	waterExcess = capfrac::waterExcess(network);
 	massDefect += done.water.defect() + done.gas.defect();
 	nFactorizations += done.factored;
 	solverIterations = done.iterations;

@@ -226,6 +226,7 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((bool,rampDone,false,Attr::readonly,"Whether the last level of the ramp is finished |yupdate|."))
 		((Real,gasSaturation,0,Attr::readonly,"Share of the void volume that holds gas [-] |yupdate|, at each new level and each avalanche."))
 		((int,nTrappedWater,0,Attr::readonly,"Domains of water that are cut off from the outlet [-] |yupdate| (with trapping)."))
+		((Real,waterExcess,0,Attr::readonly,"With ``waterFlow = 'solved'``: how far the water that is not cut off is from rest [Pa], a mean over its volume |yupdate|. A level lasts until that is at most an increment, or a hundredth of the capillary pressure where that is more: the ramp waits for the water, too. Not with wallFluxes or pointFluxes, nor below a pressure that is prescribed elsewhere."))
 		((int,nDetachedGas,0,Attr::readonly,"Domains of gas that are cut off from the inlet [-] |yupdate|; they keep the gas pressure (with imbibition: the one they had) and do not advance."))
 		((int,nReturns,0,Attr::readonly,"Number of events of imbibition so far: pores refilled, throats snapped off and opened again [-] |yupdate|."))
 		((std::vector<int>,rattlers,,Attr::readonly,"Grains that bore no load at the start: fewer than two contacts with at least a hundredth of the mean contact force [ids] |yupdate|."))

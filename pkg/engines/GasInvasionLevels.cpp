@@ -6,6 +6,13 @@
 
 namespace yade {
 
+namespace {
+
+	/// Excess of the water's pressure that still counts as rest, over the capillary pressure [-]: so far a pressure at which gas enters may be off.
+	constexpr Real restingExcess = 0.01;
+
+} // namespace
+
 void GasInvasionEngine::finishStep()
 {
 	if (historyInterval > 0 && scene->iter % historyInterval == 0) recordHistory();
@@ -14,7 +21,8 @@ void GasInvasionEngine::finishStep()
 	const int steps = static_cast<int>(scene->iter) - std::max(levelStart, lastEventIter);
 	if (steps < std::max(minLevelSteps, invasionInterval)) return;
 	scene->forces.sync();
-	const bool atRest = wallsAtRest() && unbalanced() < unbalancedTolerance;
+	// Pressures of a ramp are known to its increment in any case.
+	const bool atRest = waterExcess <= math::max(restingExcess * capillaryPressure(), pressureIncrement) && wallsAtRest() && unbalanced() < unbalancedTolerance;
 	if (!atRest && static_cast<int>(scene->iter) - levelStart < maxLevelSteps) return;
 	closeLevel(atRest);
 }

@@ -32,7 +32,7 @@ DisplacementPart::DisplacementPart(const TwoFluidNetwork& network_, const std::v
 	findBeyond();
 	for (std::size_t t = 0; t < network.throats.size(); ++t)
 		viscosity.push_back(viscosityIn(static_cast<int>(t)));
-	if (network.filmConductance > 0) findLocked();
+	if (network.filmConductance > 0) locked = lockedPores(network);
 }
 
 void DisplacementPart::moveAmounts(DisplacementTrial& trial, double h) const

@@ -41,7 +41,6 @@ public:
 private:
 	// DisplacementThroats.cpp
 	void findBeyond();
-	void findLocked();
 	/// What divides the conductance of a throat [Pa s].
 	double viscosityIn(int throat) const;
 	/// Capillary pressure of gas that is through [Pa].

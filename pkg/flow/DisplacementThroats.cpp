@@ -50,19 +50,6 @@ double DisplacementPart::viscosityIn(int throat) const
 	return network.pores[network.throats[throat].a].isGas ? fluids.gasViscosity : fluids.waterViscosity;
 }
 
-void DisplacementPart::findLocked()
-{
-	FlowNetwork water;
-	water.pores.resize(network.pores.size());
-	for (std::size_t i = 0; i < network.pores.size(); ++i)
-		if (!network.pores[i].isGas) water.pores[i].fixedPressure = network.pores[i].fixedPressure;
-	for (const auto& t : network.throats)
-		if (!network.pores[t.a].isGas && !network.pores[t.b].isGas) water.throats.push_back({ t.a, t.b, t.conductance });
-	const auto clusters = findClusters(water);
-	for (std::size_t i = 0; i < network.pores.size(); ++i)
-		locked.push_back(!network.pores[i].isGas && !clusters.grounded[clusters.ofPore[i]]);
-}
-
 void DisplacementPart::findFlows(DisplacementTrial& trial) const
 {
 	trial.throatFlow.resize(network.throats.size());

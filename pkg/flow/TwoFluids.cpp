@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace capfrac {
@@ -89,6 +90,42 @@ double storageOf(const TwoFluids& fluids, double water, double gas, double press
 	if (gas == 0) return ofWater;
 	const double ratio = gasRatio(fluids, pressure + held);
 	return ofWater + gas * gasRatioDerivative(fluids, pressure + held) / (ratio * ratio);
+}
+
+std::vector<std::uint8_t> lockedPores(const TwoFluidNetwork& network)
+{
+	FlowNetwork water;
+	water.pores.resize(network.pores.size());
+	for (std::size_t i = 0; i < network.pores.size(); ++i)
+		if (!network.pores[i].isGas) water.pores[i].fixedPressure = network.pores[i].fixedPressure;
+	for (const auto& t : network.throats)
+		if (!network.pores[t.a].isGas && !network.pores[t.b].isGas) water.throats.push_back({ t.a, t.b, t.conductance });
+	const auto                clusters = findClusters(water);
+	std::vector<std::uint8_t> locked;
+	for (std::size_t i = 0; i < network.pores.size(); ++i)
+		locked.push_back(!network.pores[i].isGas && !clusters.grounded[clusters.ofPore[i]]);
+	return locked;
+}
+
+double waterExcess(const TwoFluidNetwork& network)
+{
+	double low = std::numeric_limits<double>::infinity(), high = -low;
+	for (const auto& pore : network.pores) {
+		if (pore.isGas) continue;
+		if (pore.source != 0) return 0;
+		if (pore.fixedPressure) low = std::min(low, *pore.fixedPressure - pore.head.water), high = std::max(high, *pore.fixedPressure - pore.head.water);
+	}
+	if (low > high) return 0;
+	const auto locked = lockedPores(network);
+	double     sum = 0, volume = 0;
+	for (std::size_t i = 0; i < network.pores.size(); ++i) {
+		const auto& pore = network.pores[i];
+		if (pore.isGas || locked[i]) continue;
+		const double p = pore.pressure - pore.head.water;
+		sum += pore.volume * std::max({ 0.0, low - p, p - high });
+		volume += pore.volume;
+	}
+	return volume > 0 ? sum / volume : 0;
 }
 
 double gasShare(const TwoFluids& fluids, const TwoFluidPore& pore)

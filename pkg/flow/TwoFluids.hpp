@@ -17,6 +17,7 @@
 
 #include "../fluids/EquationOfState.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -80,6 +81,13 @@ double gasVolume(const TwoFluids& fluids, double amount, double pressure);
 
 /// Compressibility of what a pore holds, -d(volumes)/dp at its pressure [m^3/Pa] > 0.
 double storageOf(const TwoFluids& fluids, double water, double gas, double pressure, double held);
+
+/// Which pores are of water that is cut off from every pore of water at a prescribed pressure.
+std::vector<std::uint8_t> lockedPores(const TwoFluidNetwork& network);
+
+/// How far the water is from rest [Pa] >= 0: the mean over the volumes of those pores of water that are not locked of how far p less the head is outside the range
+/// of the prescribed pressures less their heads. Within that range it may flow for good. 0 where no pressure of water is prescribed, or water has sources.
+double waterExcess(const TwoFluidNetwork& network);
 
 /// Share of a pore's volume that gas fills [-], 0 … 1.
 double gasShare(const TwoFluids& fluids, const TwoFluidPore& pore);

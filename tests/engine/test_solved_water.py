@@ -110,6 +110,17 @@ def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path):
     assert continued == whole  # to the last bit
 
 
+@pytest.mark.parametrize("viscosity, rests", [(1e-3, True), (1.0, False)])
+def test_levelsWaitForTheWater(loadSample, viscosity, rests):
+    """Grains that come to rest squeeze the water: what is thin leaves within a level, what is thick keeps its pressure for long."""
+    loadSample(1e-3)
+    gas = injection.startInjection(**{**STARTED, "start": 100, "viscosity": viscosity, "maxLevelSteps": 500})
+    while not gas.levels()["pressure"]:
+        O.step()
+    assert gas.levels()["atRest"] == [rests]
+    assert (gas.waterExcess <= 1) == rests  # the increment, and a hundredth of 100 Pa
+
+
 def test_pressuresOnTheWayLoadTheGrains(loadSample):
     """Forces are those of the reported pressures on grains and walls, and sum to zero."""
     loadSample(1e-3)
