@@ -35,11 +35,11 @@ def test_figure15InTheSlowLimit(seed, drained):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_figure16InTheSlowLimit(seed):
-    """Fine grains: a fracture that reaches the top at the pressure of drained water. Which way it takes is a matter of accidents once grains slide: ten per cent are what
-    drained samples differ by among each other (136 to 148 kPa)."""
+    """Fine grains: a fracture that reaches the top at the pressure of drained water. The water may stand off rest by one per cent of that when a pore is entered; which way the gas
+    takes is a matter of accidents once grains slide, for which four per cent more are allowed: half of what drained samples differ by (136 to 148 kPa)."""
     found, drained = run("figure16_solved", seed), run("figure16_triangle", seed, "figure16", DRAINED)
     assert found["mode"]["mode"] == drained["mode"]["mode"] == "fracture"
-    assert found["mode"]["breakthroughPressure"] == pytest.approx(drained["mode"]["breakthroughPressure"], rel=0.1)
+    assert found["mode"]["breakthroughPressure"] == pytest.approx(drained["mode"]["breakthroughPressure"], rel=0.05)
     checkBooks(found)
 
 
