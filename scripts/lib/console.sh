@@ -5,6 +5,12 @@ say()  { printf '%s\n' "capfrac: $*"; }
 warn() { printf '%s\n' "capfrac: note: $*" >&2; }
 die()  { printf '%s\n' "capfrac: error: $*" >&2; exit 1; }
 
+# make_cache: the folder in which the scripts keep what is made once (CAPFRAC_CACHE).
+make_cache() {
+	CAPFRAC_CACHE=${CAPFRAC_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/capfrac}
+	mkdir -p "$CAPFRAC_CACHE" 2>/dev/null || die "the cache folder $CAPFRAC_CACHE cannot be written; set CAPFRAC_CACHE to one that can"
+}
+
 minutes() { printf '%d min %02d s' $(($1 / 60)) $(($1 % 60)); }
 
 # show_progress LABEL: reads a build's output and turns "[done/total]" and

@@ -23,11 +23,20 @@ yade_cache_key() {
 	printf 'yade-%s-%s' "$YADE_VERSION" "${flags:0:12}"
 }
 
+# debian_mirror: the address of the mirror that this machine's apt uses; empty where it has none.
+debian_mirror() {
+	local filter
+	for filter in 'Origin: Debian' 'Created-By: Packages'; do # without lists from a mirror, its origin is not known
+		apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' "$filter" | grep -v security | head -n 1 | grep . && return 0
+	done
+	return 0
+}
+
 # The source tarball through apt, with private lists: no root, and the
 # machine's own configuration of apt stays as it is.
 download_yade_source() {
 	local dir=$1 mirror keyring lists=$1/apt
-	mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' | grep -v security | head -n 1)
+	mirror=$(debian_mirror)
 	[[ -n $mirror ]] || die "no Debian mirror is configured for apt, so YADE's source cannot be found;
   get $YADE_TARBALL yourself, unpack it, and set YADE_SOURCE_DIR to the folder."
 	mkdir -p "$lists/parts" "$lists/lists/partial"
