@@ -11,7 +11,6 @@ Masses are those of the model's grains, disks of equal thickness and density: pr
 real sediment is thus met in per cent by mass, not in numbers of grains.
 """
 
-import csv
 import math
 import numbers
 from dataclasses import dataclass
@@ -19,6 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from capfrac.errors import CaseError
+from capfrac.tables import Column, readTable
 
 
 def _strata(count, rng):
@@ -105,15 +105,7 @@ class Sieve:
         object.__setattr__(self, "passing", p)
         if len(d) != len(p) or len(d) < 2:
             raise CaseError(f"sieve curve: {len(d)} diameters and {len(p)} percentages, allowed: as many of both, at least two")
-        for k in range(len(d)):
-            if not (math.isfinite(d[k]) and d[k] > 0 and 0 <= p[k] <= 100):
-                raise CaseError(f"sieve curve, entry {k + 1}: diameter {d[k]:g} m, passing {p[k]:g} %; allowed: diameter > 0, 0 to 100 %")
-            if k and (d[k] <= d[k - 1] or p[k] < p[k - 1]):
-                raise CaseError(f"sieve curve, entry {k + 1}: diameter {d[k]:g} m after {d[k - 1]:g} m, passing {p[k]:g} % after {p[k - 1]:g} %; "
-                                "allowed: larger diameters, percentages that do not fall (a sieve curve is monotone)")
-        if p[0] != 0 or p[-1] != 100:
-            raise CaseError(f"sieve curve: runs from {p[0]:g} % to {p[-1]:g} % passing, allowed: from 0 % (add the diameter of the finest grain) "
-                            "to 100 % (add that of the coarsest)")
+        _checkCurve(d, p, [f"sieve curve, entry {k}" for k in range(1, len(d) + 1)], "sieve curve")
 
     def _filled(self):
         """Bins that hold mass: arrays of lower and upper diameter [m] and share of the mass [-]."""
@@ -144,27 +136,34 @@ class Sieve:
         return 0.5 / np.sqrt(low[k] ** -2 - within * (low[k] ** -2 - high[k] ** -2))
 
 
+def _checkCurve(d, p, places, curve):
+    """Refuse what is no sieve curve; ``places`` and ``curve`` name the entries and the curve in messages."""
+    for k, place in enumerate(places):
+        if not (math.isfinite(d[k]) and d[k] > 0 and 0 <= p[k] <= 100):
+            raise CaseError(f"{place}: diameter {d[k]:g} m, passing {p[k]:g} %; allowed: diameter > 0, 0 to 100 %")
+        if k and (d[k] <= d[k - 1] or p[k] < p[k - 1]):
+            raise CaseError(f"{place}: diameter {d[k]:g} m after {d[k - 1]:g} m, passing {p[k]:g} % after "
+                            f"{p[k - 1]:g} %; allowed: larger diameters, percentages that do not fall "
+                            "(a sieve curve is monotone)")
+    if len(d) < 2 or p[0] != 0 or p[-1] != 100:
+        raise CaseError(f"{curve}: runs from {p[0]:g} % to {p[-1]:g} % passing, allowed: from 0 % (add the diameter "
+                        "of the finest grain) to 100 % (add that of the coarsest)")
+
+
+#: What a sieve curve is made of.
+COLUMNS = (Column("diameter", "m", {"d": "1", "size": "1", "radius": "2", "r": "2"}, low=0, openLow=True),
+           Column("passing", "%", low=0, high=100))
+
+
 def readSieve(path):
-    """A :class:`Sieve` from a CSV file with the columns ``diameter`` [m] and ``passing`` [%], finest first; # begins a comment."""
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:  # a spreadsheet may put a mark in front
-            reader = csv.DictReader(line for line in stream if line.strip() and not line.lstrip().startswith("#"))
-            header = [name.split("[")[0].strip() for name in reader.fieldnames or []]  # a unit may stand behind the name
-            if not {"diameter", "passing"} <= set(header):
-                raise CaseError(f"{path}: columns {header}, needed: diameter (in metres), passing (in per cent)")
-            reader.fieldnames = header
-            try:
-                rows = [(float(row["diameter"]), float(row["passing"])) for row in reader]
-            except (TypeError, ValueError, csv.Error):
-                raise CaseError(f"{path}: a line does not hold two numbers, diameter [m] and passing [%]") from None
-    except OSError as problem:
-        raise CaseError(f"the sieve curve {path} cannot be read: {problem.strerror}") from None
-    except UnicodeDecodeError:
-        raise CaseError(f"the sieve curve {path} is not a text in UTF-8") from None
-    try:
-        return Sieve(tuple(d for d, _ in rows), tuple(p for _, p in rows))
-    except CaseError as problem:
-        raise CaseError(f"{path}: {problem}") from None
+    """A :class:`Sieve` from a file with the columns ``diameter`` [m] and ``passing`` [%], finest first.
+
+    See :mod:`capfrac.tables` for what is read. Raises :class:`CaseError` naming file, line and column.
+    """
+    table = readTable(path, COLUMNS, "the sieve curve")
+    d, p = table.values["diameter"].tolist(), table.values["passing"].tolist()
+    _checkCurve(d, p, [table.where(k) for k in range(len(d))], path)
+    return Sieve(tuple(d), tuple(p))
 
 
 def passing(radii, diameters):

@@ -57,9 +57,12 @@ def notNegative(section, name, unit, default, meaning):
 
 
 def readToml(path):
-    """The sections of a TOML file as dicts, unchecked. Raises :class:`CaseError` where it is not TOML; OSError passes."""
+    """The sections of a TOML file as dicts, unchecked. Raises :class:`CaseError` where it is not TOML; OSError passes.
+
+    A byte order mark, which editors on Windows put in front, is not part of it.
+    """
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except UnicodeDecodeError:
         raise CaseError(f"{path} is not a text in UTF-8") from None
     except tomllib.TOMLDecodeError as problem:

@@ -1,11 +1,15 @@
 """Where grains come from, before there is a scene: random numbers, or a file of the user's own."""
 
-import csv
 import math
 
 import numpy as np
 
 from capfrac.errors import CaseError
+from capfrac.tables import Column, readTable
+
+
+#: Radius from which on a grain is a boulder, and a unit may have been forgotten [m].
+BOULDER = 0.1
 
 
 def drawRadii(sample):
@@ -34,47 +38,48 @@ def placeGrains(sample, radii):
     return x, y, width, pitch * math.ceil(len(radii) / columns)
 
 
-def readPacking(path):
-    """A packing of the user's own: CSV with the columns x, y, r [m]. Returns arrays ``(x, y, r)``.
+#: What a packing is made of; z, where it is given, says that the grains lie in a plane.
+COLUMNS = (Column("x", "m"), Column("y", "m"),
+           Column("r", "m", {"radius": "1", "d": "0.5", "diameter": "0.5"}, low=0, openLow=True),
+           Column("z", "m", optional=True))
 
-    Raises :class:`CaseError` naming the line and what is wrong with it.
+
+def readPackingTable(path):
+    """A packing of the user's own as a :class:`~capfrac.tables.Table` with the columns of :data:`COLUMNS` [m].
+
+    Raises :class:`CaseError` naming file, line and column of what is wrong; see :mod:`capfrac.tables` for what is read.
     """
-    rows = []
-    try:
-        with open(path, newline="", encoding="utf-8") as stream:
-            reader = csv.DictReader(line for line in stream if not line.lstrip().startswith("#"))
-            header = [name.strip() for name in reader.fieldnames or []]
-            if not {"x", "y", "r"} <= set(header):
-                raise CaseError(f"{path}: columns {header}, needed: x, y, r (in metres)")
-            reader.fieldnames = header
-            for number, row in enumerate(reader, start=1):
-                try:
-                    x, y, r = (float(row[name]) for name in ("x", "y", "r"))
-                except (TypeError, ValueError):
-                    raise CaseError(f"{path}: grain {number} is {dict(row)}, needed: three numbers x, y, r") from None
-                if not all(map(math.isfinite, (x, y, r))) or r <= 0:
-                    raise CaseError(f"{path}: grain {number} has x = {x}, y = {y}, r = {r}; allowed: finite, r > 0")
-                rows.append((x, y, r))
-    except OSError as problem:
-        raise CaseError(f"the packing {path} cannot be read: {problem.strerror}") from None
-    except UnicodeDecodeError:
-        raise CaseError(f"the packing {path} is not a text in UTF-8") from None
-    if not rows:
-        raise CaseError(f"{path}: holds no grains")
-    return tuple(np.array(rows).T)
+    table = readTable(path, COLUMNS, "the packing")
+    z = table.values.get("z", np.zeros(1))
+    apart = np.flatnonzero(np.abs(z - z[0]) > 1e-3 * table.values["r"].min())
+    if len(apart):
+        raise CaseError(f"{table.where(apart[0])}: z = {z[apart[0]]:g} m, in line {table.lines[0]} {z[0]:g} m; "
+                        "allowed: one for all, the grains are disks in a plane")
+    return table
 
 
-def checkOverlaps(x, y, r):
-    """Refuse grains that lie in each other: :class:`CaseError` naming the first two (counted from 1) and by how much.
+def readPacking(path):
+    """A packing of the user's own: arrays ``(x, y, r)`` [m]; see :func:`readPackingTable`."""
+    values = readPackingTable(path).values
+    return values["x"], values["y"], values["r"]
 
-    Contacts push such grains apart with forces that have nothing to do with the sample, and of coincident ones no
-    contact knows in which direction.
+
+def checkOverlaps(x, y, r, table=None):
+    """Refuse grains that lie in each other: :class:`CaseError` naming the first two and by how much.
+
+    They are named by their number, counted from 1, or by their lines in the ``table`` that they are from. Contacts push
+    such grains apart with forces that have nothing to do with the sample, and of coincident ones no contact knows in
+    which direction.
     """
     for i in range(1, len(x)):
         overlap = r[i] + r[:i] - np.hypot(x[:i] - x[i], y[:i] - y[i])
         j = int(np.argmax(overlap / np.minimum(r[i], r[:i])))
-        if overlap[j] > 0.5 * min(r[i], r[j]):
-            raise CaseError(f"grains {j + 1} and {i + 1} of the packing overlap by {overlap[j]:.4g} m, allowed: up to half of the smaller radius, {0.5 * min(r[i], r[j]):.4g} m")
+        most = 0.5 * min(r[i], r[j])
+        if overlap[j] > most:
+            both = f"grains {j + 1} and {i + 1} of the packing" if table is None else (
+                f"{table.path}, lines {table.lines[j]} and {table.lines[i]}: the grains")
+            raise CaseError(f"{both} overlap by {overlap[j]:.4g} m, allowed: up to half of the smaller radius, "
+                            f"{most:.4g} m")
 
 
 def hexagonal(count, radius, aspect=1.0):

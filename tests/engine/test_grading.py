@@ -193,10 +193,40 @@ def test_sieveFile(tmp_path):
     assert grading.readSieve(path) == grading.Sieve((5e-5, 1e-4, 5e-4), (0, 20, 100))
 
 
-@pytest.mark.parametrize("diameter, passing, message", [curve for curve in BAD_CURVES if len(curve[0]) == len(curve[1]) > 0])
-def test_badCurvesInFilesAreRefusedWithTheFile(tmp_path, diameter, passing, message):
-    path = write(tmp_path / "curve.csv", "diameter,passing\n" + "".join(f"{d!r},{p!r}\n" for d, p in zip(diameter, passing)))
-    refused(f"{path}: {message}", grading.readSieve, path)
+BAD_FILES = [(diameter, passing, message) for diameter, passing, message in BAD_CURVES
+             if len(diameter) == len(passing) > 1 and RANGE not in message]
+
+
+@pytest.mark.parametrize("diameter, passing, message", BAD_FILES)
+def test_badCurvesInFilesAreRefusedByLine(tmp_path, diameter, passing, message):
+    rows = "".join(f"{d!r},{p!r}\n" for d, p in zip(diameter, passing))
+    path = write(tmp_path / "curve.csv", f"# by hand\n\ndiameter,passing\n{rows}")
+    place, _, text = message.partition(": ")
+    entry = place.partition(", entry ")[2]  # the first is in line 4
+    refused(f"{path}{f', line {int(entry) + 3}' if entry else ''}: {text}", grading.readSieve, path)
+
+
+@pytest.mark.parametrize("text, message", [
+    ("diameter,passing\n1e-4,0\n2e-4,many\n", "line 3: passing = 'many', allowed: a finite number >= 0 and <= 100 [%]"),
+    ("diameter,passing\n1e-4,0\n2e-4,101\n", "line 3: passing = '101', allowed: a finite number >= 0 and <= 100 [%]"),
+    ("diameter,passing\n1e-4,-1\n2e-4,100\n", "line 2: passing = '-1', allowed: a finite number >= 0 and <= 100 [%]"),
+    ("passing;d [mm]\n0;0\n100;0,2\n", "line 2: d [mm] = '0', allowed: a finite number > 0"),
+    ("passing;d [mm]\n0;0,1\n100;inf\n", "line 3: d [mm] = 'inf', allowed: a finite number > 0"),
+    ("diameter,passing\n1e-4,0\n2e-4\n",
+     "line 3: 1 field (2e-4), allowed: 2, one for each column of line 1 (diameter | passing)"),
+    ("diameter,passing\n1e-4,0\n,100\n", "line 3: diameter = '', allowed: a finite number > 0"),
+    ("diameter,passing,diameter\n1e-4,0,1e-4\n",
+     "line 1: the columns 'diameter' and 'diameter' both give diameter; allowed: one")])
+def test_badFieldsAreRefusedByLineAndColumn(tmp_path, text, message):
+    path = write(tmp_path / "curve.csv", text)
+    refused(f"{path}, {message}", grading.readSieve, path)
+
+
+@pytest.mark.parametrize("text", ["diameter [mm];passing [%]\n0,05;0\n0,1;20\n0,5;100\n",
+                                  "# d [um]\tpassing [-]\n50\t0\n100\t0.2\n500\t1\n",
+                                  "Passing (%) Radius (mm)\n0 0.025\n20 0.05\n100 0.25\n"])
+def test_sieveFilesInOtherUnits(tmp_path, text):
+    assert grading.readSieve(write(tmp_path / "curve.csv", text)) == grading.Sieve((5e-5, 1e-4, 5e-4), (0, 20, 100))
 
 
 def test_filesThatAreNoSieveCurves(tmp_path):
@@ -206,18 +236,16 @@ def test_filesThatAreNoSieveCurves(tmp_path):
     binary = tmp_path / "binary.csv"
     binary.write_bytes(b"diameter,passing\n\xff\xfe,1\n")
     refused(f"the sieve curve {binary} is not a text in UTF-8", grading.readSieve, binary)
-    for text in ("diameter,passing\n1e-4,0\n2e-4,many\n", "diameter,passing\n1e-4,0\n2e-4\n", "diameter,passing\n1e-4,0\n,100\n"):
-        path = write(tmp_path / "curve.csv", text)
-        refused(f"{path}: a line does not hold two numbers, diameter [m] and passing [%]", grading.readSieve, path)
 
 
 @pytest.mark.parametrize("text", ["", "# nothing\n", "size,share\n1e-4,0\n", "diameter\n1e-4\n", "1e-4,0\n2e-4,100\n"])
 def test_wrongColumns(tmp_path, text):
     path = write(tmp_path / "curve.csv", text)
-    with pytest.raises(CaseError, match=rf"^{re.escape(str(path))}: columns \[.*\], needed: diameter .*, passing .*$"):
+    wrong = "(columns .*; needed: diameter .*, passing|numbers, but no line)"
+    with pytest.raises(CaseError, match=rf"^{re.escape(str(path))}, line 1: {wrong}"):
         grading.readSieve(path)
 
 
 def test_fileWithoutEntries(tmp_path):
     path = write(tmp_path / "curve.csv", "diameter,passing\n")
-    refused(f"{path}: sieve curve: 0 diameters and 0 percentages, allowed: as many of both, at least two", grading.readSieve, path)
+    refused(f"{path}: the sieve curve has no rows of numbers, needed: at least one", grading.readSieve, path)

@@ -137,16 +137,16 @@ def test_badOverrides(override, message):
 
 
 @pytest.mark.parametrize("text, message", [
-    ("x,y\n1,2\n", r"columns \['x', 'y'\], needed: x, y, r \(in metres\)"), ("", r"columns \[\], needed: x, y, r"), ("x,y,r\n", "holds no grains"),
-    ("x,y,r\n1,1,1\n1,2,zero\n", "grain 2 is .*zero.*, needed: three numbers x, y, r"), ("x,y,r\n1,1\n", "grain 1 is "),
-    ("x,y,r\n1,1,0\n", "grain 1 has x = 1.0, y = 1.0, r = 0.0; allowed: finite, r > 0"), ("x,y,r\n1,1,-1\n", "r = -1.0"), ("x,y,r\n1,nan,1\n", "y = nan")])
-def test_badPackings(tmp_path, text, message):
+    ("x,y\n1,2\n", "line 1: columns 'x', 'y'; needed: x"), ("1,2,3\n", "line 1: numbers, but no line"),
+    ("x,y,r\n", "has no rows"),
+    ("x,y,r\n1,1,1\n9,1,2,1\n", "line 3: 4 fields"), ("x,y,r,r\n1,1,1,2\n", "line 1: the columns 'r' and 'r'"),
+    ("x,y,r\n1,1,1\n1,2,zero\n", "line 3: r = 'zero', allowed: a finite number > 0"),
+    ("x,y,r\n1,1,-1\n", "line 2: r = '-1'")])
+def test_badPackingsLeaveNothing(tmp_path, text, message):
+    # All that a table may not be: tests/engine/test_tables.py.
     (tmp_path / "packing.csv").write_text(text)
-    with pytest.raises(CaseError, match=f"packing.csv: .*{message}"):
-        packing.readPacking(tmp_path / "packing.csv")
-    raw = changed(grains__packing=str(tmp_path / "packing.csv"))
-    with pytest.raises(CaseError, match=f"packing.csv: .*{message}"):
-        injection.inject(raw, tmp_path / "run")
+    with pytest.raises(CaseError, match=f"packing.csv.*{message}"):
+        injection.inject(changed(grains__packing=str(tmp_path / "packing.csv")), tmp_path / "run")
     assert not (tmp_path / "run").exists()
 
 
