@@ -1,28 +1,26 @@
 """From a case to a scene: its sample, its inlet, its engines."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 
 from capfrac import sediment
-from capfrac.case import MAX_SIZE_RATIO
-from capfrac.errors import CaseError
+from capfrac.casepacking import packingOf
 from capfrac.gasengine import addMenisci, startInjection
 
 
 def makeSample(case, say):
     """The case's sample in the (empty) current scene: grains at rest under the stresses, contacts bonded."""
     grains, cohesion = case["grains"], case["cohesion"]
-    packing = None
+    packing, count, rMin, rMax = None, grains["count"], grains["rMin"], grains["rMax"]
     if grains["packing"]:
-        packing = sediment.readPacking(Path(case["case"].get("folder", ".")) / grains["packing"])
-        grains["rMin"], grains["rMax"] = float(packing[2].min()), float(packing[2].max())
-        if grains["rMax"] > MAX_SIZE_RATIO * grains["rMin"]:
-            raise CaseError(f"{grains['packing']}: radii from {grains['rMin']:g} to {grains['rMax']:g} m, a ratio of {grains['rMax'] / grains['rMin']:.3g}; allowed: up to {MAX_SIZE_RATIO}")
+        values = packingOf(case).values
+        packing = values["x"], values["y"], values["r"]
+        count, rMin, rMax = len(packing[2]), float(packing[2].min()), float(packing[2].max())
     sample = sediment.Sediment(
-        grainCount=grains["count"] if packing is None else len(packing[0]),
-        **{name: grains[name] for name in ("rMin", "rMax", "seed", "density", "normalStiffness", "shearStiffness", "friction", "wallFriction", "aspect")})
+        grainCount=count, rMin=rMin, rMax=rMax,
+        **{name: grains[name] for name in ("seed", "density", "normalStiffness", "shearStiffness", "friction",
+                                           "wallFriction", "aspect")})
     sediment.makeSample(sample, case["stress"]["vertical"], case["stress"]["horizontal"], packing, progress=say)
     nBonds = sediment.bond(cohesion["chi"] * case["gas"]["interfacialTension"], cohesion["tensileStrength"], cohesion["shearStrength"])
     sediment.relax(progress=say)

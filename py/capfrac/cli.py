@@ -44,7 +44,9 @@ class _Progress:
         if self.quiet:
             return
         label = text.split(":")[0]
-        if sys.stderr.isatty():
+        if label == "warning":  # stays on the terminal
+            sys.stderr.write(("\r\033[K" if sys.stderr.isatty() else "") + text + "\n")
+        elif sys.stderr.isatty():
             sys.stderr.write(f"\r\033[K{text}")
         elif label != self.last:  # in a log one line a stage is enough
             sys.stderr.write(f"{label}\n")
@@ -88,6 +90,8 @@ def _inject(arguments):
         progress.close()
     print(f"{summary['title'] or case['case']['name']}: {summary['ended']}")
     print(mode.asText(mode.Mode(**summary["mode"])))
+    for text in summary.get("warnings", ()):
+        print(f"warning: {text}")
     print(f"run folder: {folder}")
     return 0
 

@@ -17,11 +17,12 @@ from dataclasses import asdict
 
 import numpy as np
 
-from capfrac import casescene, export, figures, fracture, history, mode, sediment, snapshot
+from capfrac import casescene, export, figures, fracture, history, mode, namedfiles, sediment, snapshot
 from capfrac.case import readCase, resolveCase
+from capfrac.casepacking import checkPacking
 from capfrac.errors import CapfracError, RunFolderError, SceneError
 from capfrac.gasengine import addMenisci, startInjection  # noqa: F401 (part of this module for scripts)
-from capfrac.runfolder import RunFolder, holdingInterrupts
+from capfrac.runfolder import RunFolder, exactName, holdingInterrupts
 
 #: Time steps between looks at the run [-]; short enough that Ctrl-C answers at once.
 CHUNK = 50
@@ -69,6 +70,11 @@ class Run:
         self.picture("start")
         self.checkpoint()
         self.begun = True
+
+    def warn(self, text):
+        """Say a warning, and keep it in the summary."""
+        self.report(f"warning: {text}")
+        self.folder.warn(text)
 
     def _load(self):
         from yade import O
@@ -148,14 +154,18 @@ class Run:
             return "the ramp is done"
         return ""
 
+    def stops(self):
+        """Pressures at which snapshots are asked for, those on the way, ascending, each once [Pa]."""
+        ramp = self.case["ramp"]
+        return sorted({float(p) for p in self.case["output"]["pressures"] if ramp["start"] <= p < ramp["max"]})
+
     def loop(self, bar):
         """Run to the end, with snapshots on the way."""
         from yade import O
 
         water = self.gas.waterPressure
-        stops = sorted(p for p in self.case["output"]["pressures"] if self.case["ramp"]["start"] <= p < self.case["ramp"]["max"])
         taken = {e["name"] for e in self.folder.summary["snapshots"]}
-        stops = [p for p in stops if f"{p:.0f}Pa" not in taken]
+        stops = [p for p in self.stops() if f"{exactName(p)}Pa" not in taken]
         seen = 0
         while True:
             gas = self.gas  # another one after each checkpoint
@@ -171,7 +181,7 @@ class Run:
                 taken.add("breakthrough")
                 self.picture("breakthrough")
             if stops and (gas.rampDone if self.ramped else gas.gasPressure - water >= stops[0]):
-                self.picture(f"{stops.pop(0):.0f}Pa")
+                self.picture(f"{exactName(stops.pop(0))}Pa")
                 continue
             reason = self.ended()
             if reason:
@@ -238,13 +248,16 @@ def inject(case, folder, restart=False, report=print, bar=lambda pressure, satur
         case = resolveCase(case)
     if len(O.bodies) and not replaceScene:
         raise SceneError(f"the scene holds {len(O.bodies)} bodies; call O.reset() first, or inject(..., replaceScene=True) to let them go")
-    runFolder = RunFolder(folder, case, restart)
+    warnings = [*case["case"].get("warnings", ()), *checkPacking(case)]
+    runFolder = RunFolder(folder, case, restart, namedfiles.digests(case, case["case"].get("folder", ".")))
     if runFolder.finished:
         report(f"{runFolder.path} holds this run already, finished")
         return runFolder.summary
     O.reset()
     fresh = not runFolder.summary  # else there are results of earlier, which stay whatever happens
     run = Run(case, runFolder, report)
+    for text in warnings:
+        run.warn(text)
     try:
         run.begin()
         run.finish(run.loop(bar))

@@ -25,6 +25,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from capfrac.errors import RunFolderError
+from capfrac.namedfiles import byContent, changedFiles
 
 STATES = ("running", "interrupted", "failed", "finished")
 #: Names of files that are being written.
@@ -42,10 +43,41 @@ def _plain(value):
     return value
 
 
-def caseKey(case):
-    """A short text that is the same for cases with the same parameters; titles and places do not count."""
+def exactName(value):
+    """A number as part of a file's name: 150000, 2.1, 1e+22; different for all different numbers (as doubles)."""
+    return repr(float(value) + 0.0).removesuffix(".0")
+
+
+def caseKey(case, files):
+    """A short text that is the same for cases with the same parameters; titles and places do not count.
+
+    ``files``: those that the case names (see :func:`capfrac.namedfiles.digests`); their content counts, not their name.
+    """
     parameters = {section: entries for section, entries in case.items() if section not in ("case", "output")}
-    return hashlib.sha256(json.dumps(_plain(parameters), sort_keys=True).encode()).hexdigest()[:16]
+    return hashlib.sha256(json.dumps(_plain(byContent(parameters, files)), sort_keys=True).encode()).hexdigest()[:16]
+
+
+def difference(summary, case, files):
+    """In which way the run that a ``summary`` tells of is not one of the case and its files; empty where it is."""
+    recorded = summary.get("files")
+    if summary.get("caseKey") == caseKey(case, files):
+        return ""
+    if files and not isinstance(recorded, dict):
+        names = " and ".join(file["file"] for file in files.values())
+        return f"a run of a former version of capfrac, which did not record what was in {names}"
+    changed = " and ".join(changedFiles(files, recorded or {}))
+    if changed and summary.get("caseKey") == caseKey(case, recorded):
+        return f"a run of an earlier content of {changed}, changed since"
+    return "a run with other parameters" + (f" and another content of {changed}" if changed else "")
+
+
+def readSummary(folder):
+    """summary.json of a run folder (a path) as a dict; {} where there is none that can be read."""
+    try:
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return summary if isinstance(summary, dict) else {}
 
 
 @contextmanager
@@ -79,7 +111,10 @@ def putInPlace(aside, target, write):
 
 
 class RunFolder:
-    """A run folder, opened for a case. Raises :class:`RunFolderError` when it cannot be used for it."""
+    """A run folder, opened for a case. Raises :class:`RunFolderError` when it cannot be used for it.
+
+    ``files``: those that the case names (see :func:`capfrac.namedfiles.digests`).
+    """
 
     #: What a run writes: files, folders, and endings of the files in those folders.
     FILES = ("events.csv", "pc_saturation.csv", "curve.png", "history.csv", "history.png", "checkpoint.yade.gz", "fracture.json", "fracture.csv", "fracture.png",
@@ -87,9 +122,9 @@ class RunFolder:
     FOLDERS = ("snapshots", "fields")
     SUFFIXES = (".npz", ".png", ".vtu", ".pvd")
 
-    def __init__(self, path, case, restart=False):
-        self.path = Path(path)
-        self.key = caseKey(case)
+    def __init__(self, path, case, restart=False, files=None):
+        self.path, self.files = Path(path), files or {}
+        self.key = caseKey(case, self.files)
         self.made = not self.path.exists()
         try:
             self.path.mkdir(parents=True, exist_ok=True)
@@ -105,8 +140,9 @@ class RunFolder:
             raise RunFolderError(f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or new one")
         if restart:
             self.clear()
-        elif self.summary and self.summary.get("caseKey") != self.key:
-            raise RunFolderError(f"the run folder {self.path} holds a run with other parameters; choose another folder, or --restart to discard that run")
+        elif self.summary and (held := difference(self.summary, case, self.files)):
+            raise RunFolderError(f"the run folder {self.path} holds {held}; choose another folder, or --restart to "
+                                 "discard that run")
 
     def _readSummary(self):
         path = self.path / "summary.json"
@@ -162,10 +198,16 @@ class RunFolder:
         target = self.path / name
         putInPlace(target.with_name(f".{os.getpid()}-{target.name}"), target, write)
 
+    def warn(self, text):
+        """Keep a warning, once, in the list ``warnings`` of the summary; written with the next :meth:`writeSummary`."""
+        if text not in self.summary.setdefault("warnings", []):
+            self.summary["warnings"].append(text)
+
     def writeSummary(self, **entries):
         """Update summary.json with these entries."""
+        self.summary.setdefault("warnings", [])
         self.summary.update(_plain(entries))
-        self.summary["caseKey"] = self.key
+        self.summary.update(caseKey=self.key, files=self.files)
         text = json.dumps(self.summary, indent=2) + "\n"
         self.writeWhole("summary.json", lambda path: path.write_text(text, encoding="utf-8"))
 

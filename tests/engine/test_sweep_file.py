@@ -1,9 +1,12 @@
 """Sweep files: what is read, in which order, with which values; mistakes are refused by name."""
 
 import copy
+import re
+import shlex
 
 import pytest
 
+from capfrac.case import readCase
 from capfrac.errors import CaseError
 from capfrac.sweep import readSweep, resolveSweep, shippedSweeps
 from capfrac.sweep.formulas import Formula
@@ -124,6 +127,58 @@ def test_baseCaseMayLieBesideTheSweep(tmp_path):
 @pytest.mark.parametrize("text, value", [("1 + 2 * 3 ** 2", 19), ("-(a.b - 1) / 4", -0.25), ("min(3, x, 4) + max(1, 2) - sqrt(16)", -0.5), ("exp(log(x)) + log10(100)", 3.5), ("2", 2), (0.5, 0.5)])
 def test_formulas(text, value):
     assert Formula(text).value({"a.b": 2.0, "x": 1.5}) == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize("text, x, whole", [
+    ("x / 0.2", 0.6, 3), ("x / 0.1", 0.3, 3), ("x * 1.1 * 100", 3, 330), ("x * 3 * 10", 0.1, 3),
+    ("(x - 1) * 100", 1.1, 10),
+    ("(x - 1) * 1e6", 1.000003, 3), ("x", 2.9999999999999996, 3), ("x", 3.0000000000000004, 3), ("-x / 0.2", 0.6, -3),
+    ("x", 0, 0), ("x", 1e15, 10**15), ("round(x)", 2.5, 2), ("round(x / 0.4)", 0.6, 1), ("x", 7, 7)])
+def test_wholeNumbersButForRoundOff(text, x, whole):
+    found = Formula(text).wholeValue({"x": x})
+    assert found == whole and isinstance(found, int)
+
+
+@pytest.mark.parametrize("text, x, value", [
+    ("x / 0.4", 0.6, "1.4999999999999998"), ("x", 2.999, "2.999"), ("x", 0.5, "0.5"), ("x", 1e-4, "0.0001"),
+    ("x", -2.25, "-2.25"), ("x", 1e12 + 0.5, "1000000000000.5")])
+def test_whatLiesBetweenWholeNumbersIsRefused(text, x, value):
+    message = f"pores = '{text}' gives {value}, allowed: a whole number; round(...) makes one of it"
+    with pytest.raises(CaseError, match=re.escape(message)):
+        Formula(text, "pores").wholeValue({"x": x})
+
+
+def test_rulesOfKeysThatAreWholeNumbers():
+    raw = {"sweep": {"case": "figure15"}, "units": {"share": "-"}, "rules": {"inlet.pores": "share / 0.2"},
+           "grid": [{"share": [0.2, 0.4, 0.6, 0.8]}]}
+    sweep = resolveSweep(raw, "shares")
+    pores = {point.values["share"]: point.case["inlet"]["pores"] for point in sweep.points}
+    assert pores == {0.2: 1, 0.4: 2, 0.6: 3, 0.8: 4}
+    assert all(isinstance(point.values["inlet.pores"], int) for point in sweep.points)
+    raw["grid"] = [{"share": [0.5]}]
+    message = "point share0.5: shares: rules.inlet.pores = 'share / 0.2' gives 2.5, allowed: a whole number"
+    with pytest.raises(CaseError, match=message):
+        resolveSweep(raw, "shares", source="shares")
+
+
+def test_pointsThatWouldBeTheSameRun():
+    # An axis that no rule uses: in the table they would look like two results.
+    raw = {"sweep": {"case": "figure15"}, "units": {"share": "-"},
+           "grid": [{"share": [0.2, 0.4], "cohesion": {"chi": [0.0, 1.0]}}]}
+    message = "the points share0.2_chi0 and share0.4_chi0 would be the same run: share has no effect in them; leave one"
+    with pytest.raises(CaseError, match=message):
+        resolveSweep(raw, "shares")
+
+
+@pytest.mark.parametrize("text", ["a b", "it's", 'say "no"', "$HOME `ls` \\ ; & |", "größer µ 🙂", "tab\tand\nline"])
+def test_commandsAreQuotedForAShell(text):
+    raw = {"sweep": {"case": "figure15"}, "set": {"case": {"title": text}}, "grid": [{"cohesion": {"chi": [0.5]}}]}
+    point, = resolveSweep(raw, "one").points
+    words = shlex.split(point.command(f"runs/{text}"))
+    assert words[:3] == ["capfrac", "inject", "figure15"] and words[-2:] == ["-o", f"runs/{text}/points/chi0.5"]
+    assert words[3:-2:2] == ["-s"] * 2
+    case = readCase(words[2], words[4:-2:2])
+    assert case == point.case and case["case"]["title"] == text
 
 
 @pytest.mark.parametrize("name", shippedSweeps())

@@ -1,10 +1,9 @@
 """Sweeps that are interrupted, killed, or have points that fail: the same command goes on and ends with the same table."""
 
 import csv
-import os
+import shlex
 import signal
 import subprocess
-import sys
 import time
 from concurrent import futures
 
@@ -155,8 +154,30 @@ def test_commandSaysWhatIsWrong(command, tmp_path, arguments, status, message):
     assert returned == status and output == "" and message in errors and "Traceback" not in errors and list(tmp_path.iterdir()) == []
 
 
-def test_listIsOfCommandsThatRun(command, small):
-    status, output, errors = run(command, "sweep", small, "--list", "-n", "1")
-    assert status == 0 and errors == ""
-    assert output.startswith("chi0: capfrac inject figure15 -s 'grains.count=30'") and "-s 'cohesion.chi=0.0'" in output and len(output.splitlines()) == 1
-    assert os.path.basename(sys.executable)
+def test_listedCommandsFillTheSweep(command, small, whole, tmp_path):
+    # As pasted into a shell, in a folder whose name a shell would take apart.
+    folder = tmp_path / "a sweep; 'of' $two"
+    status, output, errors = run(command, "sweep", small, "--list", "-o", folder)
+    assert status == 0 and errors == "" and len(output.splitlines()) == 2
+    for line in output.splitlines():
+        name, *arguments = shlex.split(line)
+        assert name == "capfrac"
+        status, _, errors = run(command, *arguments, "-q")
+        assert status == 0, errors
+    told = []
+    assert runSweep(readSweep(small), folder, report=told.append)["finished"] == 2
+    assert told == ["2 points: 2 finished, 0 failed, 0 to run, 1 at a time"] and rows(folder) == whole
+
+
+def test_failuresAreTold(command, tmp_path):
+    path = tmp_path / "none.toml"
+    grid = "inlet.pores = [98, 99]"
+    path.write_text(SMALL.replace("inlet.pores = 1", "").replace("cohesion.chi = [0.0, 10.0]", grid))
+    for _ in range(2):  # also where nothing is left to run
+        status, output, errors = run(command, "sweep", path, "-o", tmp_path / "sweep", "-q")
+        lines = output.splitlines()
+        assert status == 1 and lines[0].startswith("Small: 0 of 2 points finished, 2 failed, in ")
+        assert lines[1].startswith("failed: pores98: ") and "98, allowed: 1 … " in lines[1]
+        assert lines[2].startswith("failed: pores99: ")
+        assert lines[3] == "With --retry the same command runs them once more" and lines[4].startswith("table: ")
+    assert not (tmp_path / "sweep" / "figures").exists()

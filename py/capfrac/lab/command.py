@@ -3,11 +3,13 @@
 import sys
 from pathlib import Path
 
-from capfrac import keys
+from capfrac import keys, namedfiles
 from capfrac.errors import CaseError
 from capfrac.lab import parameters, reports
 from capfrac.lab.run import LabRun
 from capfrac.lab.water import reports as waterReports
+from capfrac.packing import BOULDER
+from capfrac.runfolder import readSummary
 
 _REPORTS = {**reports.REPORTS, **waterReports.REPORTS}
 #: What each test is, in a line.
@@ -46,12 +48,14 @@ def runTest(test, values, folder=None, restart=False, report=lambda text: None, 
     from yade import O
 
     sample = parameters.sedimentOf({**_defaults("settle")["grains"], **values["grains"]}, base)
-    if sample.grading is not None:  # a sieve curve counts by what is in it, not by the name of its file
+    if sample.grading is not None:  # for people who read the summary
         values = {**values, "grading": {"name": type(sample.grading).__name__, **vars(sample.grading)}}
-    run = LabRun(test, values, folder, restart, report)
+    run = LabRun(test, values, folder, restart, report, namedfiles.digests(values, base))
     if run.finished:
         report(f"{run.folder.path} holds this test already, finished")
         return run.summary["results"]
+    if sample.rMax > BOULDER:
+        run.warn(f"grains of up to r = {sample.rMax:g} m, boulders: is a number in mm that is meant to be in m?")
     O.reset()
     results = _REPORTS[test](sample, dict(values.get(test, {})), run, Path(base))
     run.finish(results)
@@ -104,6 +108,8 @@ def main(arguments):
     if sys.stderr.isatty() and not arguments.quiet:
         sys.stderr.write("\r\033[K")
     print(asText(test, results))
+    for text in readSummary(Path(folder)).get("warnings", ()):
+        print(f"warning: {text}")
     print(f"run folder: {folder}")
     return 0
 
@@ -115,7 +121,9 @@ def _reporter(quiet):
     def report(text):
         if quiet:
             return
-        if sys.stderr.isatty():
+        if text.startswith("warning:"):  # stays on the terminal
+            sys.stderr.write(("\r\033[K" if sys.stderr.isatty() else "") + text + "\n")
+        elif sys.stderr.isatty():
             sys.stderr.write(f"\r\033[K{text[:150]}")
         elif text.split(":")[0] != last[0]:
             sys.stderr.write(f"{text}\n")

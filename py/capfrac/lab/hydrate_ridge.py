@@ -10,7 +10,6 @@ Strains are what a two-dimensional pack and a clay have in common; the void rati
 Its default, 1.5, is that of the porosity model of Hydrate Ridge at about 80 mbsf (0.60), computed, not measured.
 """
 
-import csv
 import math
 
 import numpy as np
@@ -20,6 +19,7 @@ from capfrac.errors import CaseError
 from capfrac.lab import compaction
 from capfrac.lab.box import INERTIAL_NUMBER
 from capfrac.lab.run import LabRun
+from capfrac.tables import Column, readTable
 
 #: Reported indices [-]: smallest, largest, average.
 CC_REPORTED = (0.340, 0.704, 0.568)
@@ -37,6 +37,10 @@ def hydrateRidge(sample, voidRatio=1.5, preload=10e3, fitFrom=100e3, fitTo=1e6, 
     """
     run = run or LabRun("hydrate-ridge", {})
     curve = readLaboratory(laboratory, voidRatio) if laboratory else None
+    if curve and (min(curve["stress"]) > fitTo or max(curve["stress"]) < fitFrom):
+        run.warn(f"the laboratory curve {laboratory} runs from {min(curve['stress']):g} to {max(curve['stress']):g} "
+                 f"Pa, outside of the fitted stresses, {fitFrom:g} to {fitTo:g} Pa; are its stresses in kPa? Then name "
+                 "its column stress [kPa]")
     fits = {}
     for name, index in (("average", CC_REPORTED[2]), ("stiffest", CC_REPORTED[0]), ("softest", CC_REPORTED[1])):
         start = fits["average"]["normalStiffness"] * CC_REPORTED[2] / index if fits else sample.normalStiffness
@@ -104,33 +108,23 @@ def verdict(result):
     return text
 
 
-def readLaboratory(path, voidRatio):
-    """A laboratory curve: dict of ``stress`` [Pa] and ``strain`` [-], from a CSV with the columns stress and strain or voidRatio.
+#: What a laboratory curve is made of.
+COLUMNS = (Column("stress", "Pa", {"stressV": "1"}, low=0, openLow=True), Column("strain", "-", high=1, optional=True),
+           Column("voidRatio", "-", low=0, openLow=True, optional=True))
 
-    Raises :class:`CaseError` naming the line.
+
+def readLaboratory(path, voidRatio):
+    """A laboratory curve of a file with the columns stress and strain or voidRatio: a dict.
+
+    ``stress`` [Pa] and ``strain`` [-]; the strain is that of the file where it has one, else it follows from
+    ``voidRatio`` [-] at the preload. ``name``: the file. Raises :class:`CaseError` naming file, line and column; see
+    :mod:`capfrac.tables` for what is read.
     """
-    stress, strain = [], []
-    try:
-        with open(path, newline="", encoding="utf-8") as stream:
-            reader = csv.DictReader(line for line in stream if line.strip() and not line.lstrip().startswith("#"))
-            header = [name.strip() for name in reader.fieldnames or []]
-            if "stress" not in header or not {"strain", "voidRatio"} & set(header):
-                raise CaseError(f"{path}: columns {header}, needed: stress [Pa] and strain [-] or voidRatio [-]")
-            reader.fieldnames = header
-            for number, row in enumerate(reader, start=1):
-                try:
-                    p = float(row["stress"])
-                    s = float(row["strain"]) if "strain" in header else 1 - (1 + float(row["voidRatio"])) / (1 + voidRatio)
-                except (TypeError, ValueError):
-                    raise CaseError(f"{path}: row {number} is {dict(row)}, needed: numbers") from None
-                if not (math.isfinite(p) and p > 0 and math.isfinite(s)):
-                    raise CaseError(f"{path}: row {number} has stress = {p}, strain = {s}; allowed: stress > 0, finite")
-                stress.append(p)
-                strain.append(s)
-    except OSError as problem:
-        raise CaseError(f"the laboratory curve {path} cannot be read: {problem.strerror}") from None
-    except UnicodeDecodeError:
-        raise CaseError(f"the laboratory curve {path} is not a text in UTF-8") from None
-    if not stress:
-        raise CaseError(f"{path}: holds no rows")
-    return {"stress": stress, "strain": strain, "name": str(path)}
+    table = readTable(path, COLUMNS, "the laboratory curve")
+    if "strain" in table.values:
+        strain = table.values["strain"]
+    elif "voidRatio" in table.values:
+        strain = 1 - (1 + table.values["voidRatio"]) / (1 + voidRatio)
+    else:
+        raise CaseError(f"{path}: neither strain nor voidRatio among the columns; needed: strain [-] or voidRatio [-]")
+    return {"stress": table.values["stress"].tolist(), "strain": strain.tolist(), "name": str(path)}

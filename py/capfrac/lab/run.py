@@ -39,13 +39,14 @@ class LabRun:
     """Stages, checkpoints and results of a test.
 
     ``test``: its name; ``parameters``: dict of sections, what the run depends on (kept, and compared when a folder is
-    taken up again). ``folder`` None: nothing is written. ``report(text)`` shows progress. Raises :class:`RunFolderError`
-    for a folder that cannot be used.
+    taken up again); ``files``: those that they name (see :func:`capfrac.namedfiles.digests`). ``folder`` None: nothing
+    is written. ``report(text)`` shows progress. Raises :class:`RunFolderError` for a folder that cannot be used.
     """
 
-    def __init__(self, test, parameters, folder=None, restart=False, report=lambda text: None):
+    def __init__(self, test, parameters, folder=None, restart=False, report=lambda text: None, files=None):
         self.report, self._ticks = report, 0
-        self.folder = None if folder is None else LabFolder(folder, {"test": {"name": test}, **parameters}, restart)
+        parameters = {"test": {"name": test}, **parameters}
+        self.folder = None if folder is None else LabFolder(folder, parameters, restart, files)
         #: What the stages remember.
         self.data = {}
         self._done, self._results, self._scene, self._summary = [], {}, None, {}
@@ -57,6 +58,7 @@ class LabRun:
             if not self.finished:
                 from capfrac.injection import versions
 
+                del parameters["test"]
                 self.folder.writeSummary(state="running", test=test, parameters=parameters, versions=versions())
 
     @property
@@ -170,6 +172,12 @@ class LabRun:
             (self.folder.path / old).unlink(missing_ok=True)
         if scene:
             self._loadScene()
+
+    def warn(self, text):
+        """Say a warning, and keep it in the summary."""
+        self.report(f"warning: {text}")
+        if self.folder is not None:
+            self.folder.warn(text)
 
     def table(self, name, columns):
         """Write ``name``.csv: dict of header (with unit) -> list."""

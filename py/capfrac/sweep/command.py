@@ -8,6 +8,9 @@ from capfrac.sweep import figures
 from capfrac.sweep.run import asTime, runSweep
 from capfrac.sweep.sweepfile import readSweep, shippedSweeps
 
+#: Failures that are shown at the end.
+_SHOWN = 5
+
 
 def addParser(commands):
     """Put ``sweep`` into the command's parser."""
@@ -20,7 +23,7 @@ def addParser(commands):
     sweep.add_argument("-n", "--points", type=int, help="only the first so many points; every beginning of the list is a useful map")
     sweep.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a value of [set], e.g. -s grains.count=200")
     sweep.add_argument("--retry", action="store_true", help="run points that failed once more")
-    sweep.add_argument("--list", action="store_true", help="list the points with the command of each, and run nothing")
+    sweep.add_argument("--list", action="store_true", help="print the command of each point, and run nothing")
     sweep.add_argument("-q", "--quiet", action="store_true", help="no progress, only the result")
 
 
@@ -33,8 +36,7 @@ def main(arguments):
     folder = arguments.output or f"runs/{sweep.name}"
     if arguments.list:
         for point in sweep.points[:arguments.points]:
-            case, *overrides = point.arguments
-            print(f"{point.name}: capfrac inject {case} {' '.join(f'-s {text!r}' for text in overrides)}")
+            print(point.command(folder))
         return 0
     report = (lambda text: None) if arguments.quiet else lambda text: print(text, file=sys.stderr, flush=True)
     signal.signal(signal.SIGTERM, _interrupt)  # as batch systems end their jobs
@@ -44,10 +46,19 @@ def main(arguments):
         print(f"\ninterrupted; the same command goes on with the sweep in {folder}", file=sys.stderr)
         return 130
     print(f"{sweep.title or sweep.name}: {result['finished']} of {result['points']} points finished, {result['failed']} failed, in {asTime(result['seconds'])}")
+    _printFailures(result["failures"])
     print(f"table: {result['table']}")
     for path in figures.draw(sweep.figures, result["table"], result["table"].parent / "figures") if result["finished"] else []:
         print(f"figure: {path}")
     return 1 if result["failed"] else 0
+
+
+def _printFailures(failures):
+    for name, error in failures[:_SHOWN]:
+        print(f"failed: {name}: {error}")
+    if failures:
+        more = f"and {len(failures) - _SHOWN} more; see the table. " if len(failures) > _SHOWN else ""
+        print(f"{more}With --retry the same command runs {'them' if len(failures) > 1 else 'it'} once more")
 
 
 def _interrupt(*_):

@@ -66,14 +66,16 @@ def _environment():
 
 
 def runPoint(job, watch=lambda process, running: None):
-    """Run one point: ``job`` has ``name``, ``folder`` (the run folder) and ``arguments`` (case and overrides); returns a dict.
+    """Run one point: ``job`` has ``name``, ``folder`` (the run folder), ``key`` (of the run: see
+    :func:`capfrac.runfolder.caseKey`) and ``arguments`` (case and overrides); returns a dict.
 
     ``status`` is the exit status of its process (0: finished, 130: interrupted, < 0: ended by that signal), ``error`` what it
     said where it did not finish, ``seconds`` the time it took.
     """
     start = time.monotonic()
     # In a session of its own, Ctrl-C in a terminal reaches the sweep alone, which then asks its points to stop.
-    process = subprocess.Popen([sys.executable, "-c", "from capfrac.sweep.worker import main; main()", str(os.getpid()), job["folder"], *job["arguments"]],
+    process = subprocess.Popen([sys.executable, "-c", "from capfrac.sweep.worker import main; main()", str(os.getpid()),
+                                job["folder"], job["key"], *job["arguments"]],
                                env=_environment(), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
     watch(process, True)
     try:

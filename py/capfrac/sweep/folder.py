@@ -15,8 +15,11 @@ from pathlib import Path
 
 import capfrac
 from capfrac.errors import RunFolderError
-from capfrac.runfolder import caseKey, putInPlace
+from capfrac.runfolder import difference, putInPlace, readSummary
 from capfrac.sweep import table
+
+#: Before the key of the case that failed, in the file that tells why.
+_KEY = "case key: "
 
 
 class SweepFolder:
@@ -26,7 +29,9 @@ class SweepFolder:
         self.path, self.sweep = Path(path), sweep
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            foreign = [entry.name for entry in self.path.iterdir() if entry.name not in (".lock", ".sweep.json")]
+            # Without sweep.json there may be points, run one by one by the commands of `capfrac sweep --list`.
+            own = (".lock", ".sweep.json", "points")
+            foreign = [entry.name for entry in self.path.iterdir() if entry.name not in own]
             if foreign and not (self.path / "sweep.json").exists():
                 raise RunFolderError(f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or new one")
             self._lock = open(self.path / ".lock", "w")  # open as long as this object lives
@@ -39,10 +44,11 @@ class SweepFolder:
         except OSError:
             raise RunFolderError(f"another sweep is at work in {self.path}; wait for it, or choose another folder") from None
         self._rows = {}
-        for point in sweep.points:
-            summary = table.readSummary(self.run(point))
-            if summary and summary.get("caseKey") != caseKey(point.case):
-                raise RunFolderError(f"{self.run(point)} holds a run with other parameters than the sweep has now; choose another folder for the sweep, or remove that one")
+        others = [(point, held) for point in sweep.points if (held := self.difference(point))]
+        if others:
+            more = f" ({len(others)} of {len(sweep.points)} points are so)" if len(others) > 1 else ""
+            raise RunFolderError(f"{self.run(others[0][0])} holds {others[0][1]}{more}; choose another folder for the "
+                                 "sweep, or remove what is in this one")
         head = {"name": sweep.name, "title": sweep.title, "description": sweep.description, "capfrac": capfrac.__version__}
         self._whole("sweep.json", lambda path: path.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8"))
 
@@ -54,19 +60,33 @@ class SweepFolder:
         """Run folder of a point."""
         return self.path / "points" / point.name
 
+    def difference(self, point):
+        """In which way the run in a point's folder is not the point's; empty where it is, or where there is none."""
+        summary = readSummary(self.run(point))
+        return difference(summary, point.case, point.files) if summary else ""
+
     def _error(self, point):
         return self.path / "failed" / f"{point.name}.txt"
 
     def state(self, point):
         """'finished', 'failed', 'begun' (to be taken up) or 'open'."""
-        state = table.readSummary(self.run(point)).get("state", "")
+        state = readSummary(self.run(point)).get("state", "")
         if state == "finished":
             return "finished"
-        return "failed" if self._error(point).exists() else "begun" if state else "open"
+        return "failed" if self._failure(point) is not None else "begun" if state else "open"
+
+    def _failure(self, point):
+        """Why the point failed; None where it did not, or with other parameters or other contents of files."""
+        try:
+            error, mark, key = self._error(point).read_text(encoding="utf-8").rpartition(_KEY)
+        except OSError:
+            return None
+        return error if mark and key.strip() == point.key else None
 
     def fail(self, point, error):
         """Record that a point failed, and why."""
-        self._whole(f"failed/{point.name}.txt", lambda path: path.write_text(error + "\n", encoding="utf-8"))
+        text = f"{error}\n{_KEY}{point.key}\n"
+        self._whole(f"failed/{point.name}.txt", lambda path: path.write_text(text, encoding="utf-8"))
 
     def forgive(self, point):
         """Forget that a point failed."""
@@ -81,8 +101,8 @@ class SweepFolder:
         """The line of a point in the table, as of now."""
         if point.name not in self._rows:
             state = self.state(point)
-            error = self._error(point).read_text(encoding="utf-8") if state == "failed" else ""
-            line = table.row(point, self.sweep.columns, state, table.readSummary(self.run(point)), self.run(point), error)
+            error = self._failure(point) if state == "failed" else ""
+            line = table.row(point, self.sweep.columns, state, readSummary(self.run(point)), self.run(point), error)
             if state != "finished":
                 return line
             self._rows[point.name] = line  # it stays as it is

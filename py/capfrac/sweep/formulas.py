@@ -60,6 +60,16 @@ class Formula:
             raise CaseError(f"{self.source} = '{self.text}' gives {found}, allowed: finite numbers")
         return found
 
+    def wholeValue(self, values):
+        """The whole number for ``values`` but for round-off: 0.6 / 0.2 is 3. :class:`CaseError` for one between two."""
+        found = self.value(values)
+        whole = round(found)
+        # The round-off of a short formula is some 1e-16 of the numbers in it, which may be larger than what comes out.
+        if abs(found - whole) > min(1e-9 * max(1, abs(found)), 1e-3):
+            raise CaseError(f"{self.source} = '{self.text}' gives {found!r}, allowed: a whole number; "
+                            "round(...) makes one of it")
+        return whole
+
     def _evaluate(self, node, values):
         name = _nameOf(node)
         if name is not None:

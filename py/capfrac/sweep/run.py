@@ -12,8 +12,8 @@ def runSweep(sweep, folder, processes=1, points=None, retry=False, report=lambda
     ``folder``: see :mod:`capfrac.sweep.folder`; ``processes`` at a time (>= 1); ``points``: only the first so many; ``retry``: points
     that failed earlier, too. ``report(text)`` gets a line for each point. ``executor`` replaces the processes on this
     machine (see :mod:`capfrac.sweep.execution`). Interrupted (Ctrl-C), the folder is left usable and the interruption goes
-    on to the caller; the same call then goes on. The result: counts of ``finished``, ``failed`` and all ``points``, ``table``
-    (its path), ``seconds`` of this call.
+    on to the caller; the same call then goes on. The result: counts of ``finished``, ``failed`` and all ``points``,
+    ``failures`` (pairs of a point's name and what it said), ``table`` (its path), ``seconds`` of this call.
     """
     place = SweepFolder(folder, sweep)
     try:
@@ -40,16 +40,21 @@ def _run(sweep, place, processes, points, retry, report, executor):
         if state != "finished":
             place.fail(point, outcome["error"] or f"ended with status {outcome['status']} and without a result")
             state = "failed"
+        else:
+            place.forgive(point)  # what failed was a run of other parameters
         counts[state] += 1
         place.writeTable(points)
         ended = counts["finished"] + counts["failed"]
         remaining = (time.monotonic() - start) / (ended - len(points) + len(todo)) * (len(points) - ended)
         report(f"{ended}/{len(points)} {point.name}: {_told(place, point, state)}, {outcome['seconds']:.0f} s; {asTime(remaining)} to go")
 
-    jobs = [{"name": point.name, "folder": str(place.run(point)), "arguments": list(point.arguments)} for point in todo]
+    jobs = [{"name": point.name, "folder": str(place.run(point)), "key": point.key,
+             "arguments": list(point.arguments)} for point in todo]
     if jobs:
         execution.runAll(jobs, executor or execution.LocalProcesses(processes), done)
-    return {**counts, "points": len(points), "table": place.path / "table.csv", "seconds": time.monotonic() - start}
+    failures = [(point.name, place.row(point)["error"]) for point in points if place.state(point) == "failed"]
+    return {**counts, "failures": failures, "points": len(points), "table": place.path / "table.csv",
+            "seconds": time.monotonic() - start}
 
 
 def _told(place, point, state):

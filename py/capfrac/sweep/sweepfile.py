@@ -25,13 +25,16 @@ grid first the corners, then the middles of its axes, then the quarters, and so 
 import itertools
 import json
 import math
+import shlex
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-from capfrac import keys
+from capfrac import keys, namedfiles
 from capfrac.case import KEYS, readCase, shippedCases
+from capfrac.casepacking import checkPacking
 from capfrac.errors import CaseError
+from capfrac.runfolder import caseKey
 from capfrac.sweep.formulas import Formula
 
 #: Repeats of a sample: its axis is the slowest.
@@ -55,6 +58,18 @@ class Point:
     values: dict  #: axes, rules and keys set by them: name -> value
     case: dict  #: the resolved case
     arguments: tuple  #: case and overrides (``section.key=value``): what makes the same run with ``capfrac inject``
+    files: dict  #: those that the case names (see :func:`capfrac.namedfiles.digests`)
+
+    @property
+    def key(self):
+        """Tells the point's runs from those of other parameters or other contents of files."""
+        return caseKey(self.case, self.files)
+
+    def command(self, folder):
+        """The command that runs the point into its place in the sweep's ``folder``, quoted for a shell."""
+        case, *overrides = self.arguments
+        sets = [word for text in overrides for word in ("-s", text)]
+        return shlex.join(["capfrac", "inject", case, *sets, "-o", str(Path(folder) / "points" / self.name)])
 
 
 @dataclass(frozen=True)
@@ -117,8 +132,20 @@ def resolveSweep(raw, name, folder=".", source="sweep", overrides=()):
     for folder, count in Counter(point.name for point in points).items():
         if count > 1:
             raise CaseError(f"{source}: {count} points would be called {folder}: values of an axis must differ in their first six digits")
+    _checkDifferent(points, source)
     columns = {key: units.get(key, getattr(_CASE_KEYS.get(key), "unit", "-")) for key in (*grids[0], *rules) if "." in key or key in units}
     return Sweep(name, head["title"], head["description"], head["figures"], columns, tuple(points))
+
+
+def _checkDifferent(points, source):
+    """Refuse points that would be the same run: a value without effect looks like another sample in a table."""
+    first = {}
+    for point in points:
+        other = first.setdefault((point.key, json.dumps(point.case["output"], sort_keys=True)), point)
+        if other is not point:
+            axes = ", ".join(key for key in point.values if point.values[key] != other.values[key])
+            raise CaseError(f"{source}: the points {other.name} and {point.name} would be the same run: {axes} has no "
+                            "effect in them; leave one value of it")
 
 
 def _flat(table, section, source, prefix=""):
@@ -195,13 +222,15 @@ def _point(base, fixed, rules, axes, source):
     try:
         numbers = {**_numbers(base, given, source), **axes}
         for key in _byNeed(rules, source):
-            value = rules[key].value(numbers)
-            numbers[key] = int(value) if getattr(_CASE_KEYS.get(key), "kind", float) is int else float(value)
+            whole = getattr(_CASE_KEYS.get(key), "kind", float) is int
+            numbers[key] = rules[key].wholeValue(numbers) if whole else float(rules[key].value(numbers))
         arguments = [f"{key}={_toml(value)}" for key, value in {**given, **{key: numbers[key] for key in rules if "." in key}}.items()]
         case = readCase(base, arguments)
+        checkPacking(case)
+        files = namedfiles.digests(case, case["case"]["folder"])
     except CaseError as problem:
         raise CaseError(f"{source}: point {_name(axes)}: {problem}") from None
-    return Point(_name(axes), {key: numbers[key] for key in (*axes, *rules)}, case, (base, *arguments))
+    return Point(_name(axes), {key: numbers[key] for key in (*axes, *rules)}, case, (base, *arguments), files)
 
 
 def _numbers(base, given, source):
@@ -236,4 +265,4 @@ def _name(axes):
 
 def _toml(value):
     """A value as TOML (JSON's texts, lists, true and false are TOML, too)."""
-    return repr(value) if isinstance(value, float) else json.dumps(value)
+    return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False)

@@ -1,7 +1,6 @@
 """The table of a sweep: one line a point, a CSV with units in its header."""
 
 import csv
-import json
 import math
 
 import numpy as np
@@ -96,12 +95,3 @@ def _number(text):
         return float(text)
     except ValueError:
         return math.nan
-
-
-def readSummary(folder):
-    """summary.json of a run folder as a dict; {} where there is none that can be read."""
-    try:
-        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
-    return summary if isinstance(summary, dict) else {}

@@ -20,16 +20,24 @@ def dieWith(parent):
 
 
 def main():
-    """``parent's id, run folder, case, override, ...`` as arguments: run it. Exit status as that of the command ``capfrac``."""
-    parent, folder, case, *overrides = sys.argv[1:]
+    """``parent's id, run folder, key, case, override, ...`` as arguments: run it. Exit status as of ``capfrac``.
+
+    The key tells a case that is another one than when the sweep began: a file of it was changed meanwhile.
+    """
+    parent, folder, key, base, *overrides = sys.argv[1:]
     dieWith(int(parent))
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a sweep in the background of a script hands an ignored one on
     from capfrac.case import readCase
-    from capfrac.errors import CapfracError
+    from capfrac.errors import CapfracError, CaseError
     from capfrac.injection import inject
+    from capfrac.namedfiles import digests
+    from capfrac.runfolder import caseKey
 
     try:
-        inject(readCase(case, overrides), folder, report=lambda text: None)
+        case = readCase(base, overrides)
+        if caseKey(case, digests(case, case["case"]["folder"])) != key:
+            raise CaseError(f"the case {base} or a file that it names was changed since the sweep began")
+        inject(case, folder, report=lambda text: None)
     except CapfracError as problem:
         print(problem, file=sys.stderr)
         sys.exit(1)
