@@ -22,7 +22,7 @@ from capfrac.case import readCase, resolveCase
 from capfrac.casepacking import checkPacking
 from capfrac.errors import CapfracError, RunFolderError, SceneError
 from capfrac.gasengine import addMenisci, startInjection  # noqa: F401 (part of this module for scripts)
-from capfrac.runfolder import RunFolder, exactName, holdingInterrupts
+from capfrac.runfolder import RunFolder, exactText, holdingInterrupts
 
 #: Time steps between looks at the run [-]; short enough that Ctrl-C answers at once.
 CHUNK = 50
@@ -165,7 +165,7 @@ class Run:
 
         water = self.gas.waterPressure
         taken = {e["name"] for e in self.folder.summary["snapshots"]}
-        stops = [p for p in self.stops() if f"{exactName(p)}Pa" not in taken]
+        stops = [p for p in self.stops() if f"{exactText(p)}Pa" not in taken]
         seen = 0
         while True:
             gas = self.gas  # another one after each checkpoint
@@ -181,7 +181,7 @@ class Run:
                 taken.add("breakthrough")
                 self.picture("breakthrough")
             if stops and (gas.rampDone if self.ramped else gas.gasPressure - water >= stops[0]):
-                self.picture(f"{exactName(stops.pop(0))}Pa")
+                self.picture(f"{exactText(stops.pop(0))}Pa")
                 continue
             reason = self.ended()
             if reason:

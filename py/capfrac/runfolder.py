@@ -43,9 +43,10 @@ def _plain(value):
     return value
 
 
-def exactName(value):
-    """A number as part of a file's name: 150000, 2.1, 1e+22; different for all different numbers (as doubles)."""
-    return repr(float(value) + 0.0).removesuffix(".0")
+def exactText(value, form=".15g"):
+    """A number as part of a name, as ``form`` writes it where that is exact: different numbers have different names."""
+    text = format(float(value), form)
+    return text if float(text) == value else repr(float(value))
 
 
 def caseKey(case, files):

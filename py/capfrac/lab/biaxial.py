@@ -16,6 +16,7 @@ from capfrac.errors import CaseError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
+from capfrac.runfolder import exactText
 
 #: Share of the largest deviator up to which the moduli are taken [-]: before grains slide on a large scale.
 ELASTIC_SHARE = 0.25
@@ -89,8 +90,9 @@ def biaxial(sample, stresses=(20e3, 50e3, 100e3), strain=0.08, bondStrength=0.0,
     run = run or LabRun("biaxial", {})
     if len(set(stresses)) < 2:
         raise CaseError(f"stresses = {list(stresses)}, allowed: at least two different confining stresses")
-    bonds = f"bonds {bondStrength:g} Pa" if bondStrength > 0 else "no bonds"
-    tests = [run.result(f"{_label(sample)}, {bonds}, confined at {stress:g} Pa", lambda: biaxialTest(sample, stress, strain, bondStrength, inertialNumber, packing, run))
+    bonds = f"bonds {_exact(bondStrength)} Pa" if bondStrength > 0 else "no bonds"
+    tests = [run.result(f"{_label(sample)}, {bonds}, confined at {_exact(stress)} Pa",
+                        lambda: biaxialTest(sample, stress, strain, bondStrength, inertialNumber, packing, run))
              for stress in sorted(stresses)]
     strength = mohrCoulomb([test["stress"] for test in tests], [test["peak"] for test in tests])
     return {"tests": tests, **strength, "youngModulus": float(np.mean([test["youngModulus"] for test in tests])),
@@ -99,5 +101,10 @@ def biaxial(sample, stresses=(20e3, 50e3, 100e3), strain=0.08, bondStrength=0.0,
 
 def _label(sample):
     """What tells samples of one run apart."""
-    return (f"r_min {sample.rMin:g} m, k_n {sample.normalStiffness:g} N/m, k_s {sample.shearStiffness:g} N/m, mu {sample.friction:g}, "
-            f"{sample.grainCount} grains, seed {sample.seed}")
+    return (f"r_min {_exact(sample.rMin)} m, k_n {_exact(sample.normalStiffness)} N/m, "
+            f"k_s {_exact(sample.shearStiffness)} N/m, mu {_exact(sample.friction)}, {sample.grainCount} grains, "
+            f"seed {sample.seed}")
+
+
+def _exact(value):
+    return exactText(value, "g")

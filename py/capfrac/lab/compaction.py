@@ -16,6 +16,7 @@ from capfrac import sediment
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.run import LabRun
+from capfrac.runfolder import exactText
 
 #: Strain at which a compaction towards a stress gives up [-].
 LARGEST_STRAIN = 0.45
@@ -161,7 +162,7 @@ def findStiffness(sample, compressionIndex, fitFrom=100e3, fitTo=1e6, voidRatio=
     for _ in range(LARGEST_SEARCH):
         other = sediment.changed(sample, normalStiffness=stiffness, shearStiffness=ratio * stiffness)
         # To a fixed strain: the curve serves for other stiffnesses, too.
-        found = Compaction(**run.result(f"k_n {stiffness:.6g} N/m", lambda: compact(
+        found = Compaction(**run.result(f"k_n {exactText(stiffness, '.6g')} N/m", lambda: compact(
             other, preload, LARGEST_STRAIN, (), voidRatio=voidRatio, fitFrom=fitFrom, fitTo=fitTo, inertialNumber=inertialNumber,
             untilStress=fitTo if tried else None, run=run).asDict()))
         tried.append((stiffness, found.Cc))

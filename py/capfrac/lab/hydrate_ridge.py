@@ -19,6 +19,7 @@ from capfrac.errors import CaseError
 from capfrac.lab import compaction
 from capfrac.lab.box import INERTIAL_NUMBER
 from capfrac.lab.run import LabRun
+from capfrac.runfolder import exactText
 from capfrac.tables import Column, readTable
 
 #: Reported indices [-]: smallest, largest, average.
@@ -52,7 +53,8 @@ def hydrateRidge(sample, voidRatio=1.5, preload=10e3, fitFrom=100e3, fitTo=1e6, 
     for name, fit in fits.items():
         k = fit["normalStiffness"]
         other = sediment.changed(sample, normalStiffness=k, shearStiffness=k * sample.shearStiffness / sample.normalStiffness)
-        compactions[name] = run.result(f"compaction with loops, k_n {k:.6g} N/m", lambda: compaction.compact(
+        loops = f"compaction with loops, k_n {exactText(k, '.6g')} N/m"
+        compactions[name] = run.result(loops, lambda: compaction.compact(
             other, preload, STRAIN, LOOPS, voidRatio=voidRatio, fitFrom=fitFrom, fitTo=None, inertialNumber=inertialNumber, run=run).asDict())
     result = {"stiffness": {name: fit["normalStiffness"] for name, fit in fits.items()}, "Cc": {name: fit["Cc"] for name, fit in fits.items()},
               "fits": fits, "compactions": compactions, "laboratory": curve, "voidRatio": voidRatio,

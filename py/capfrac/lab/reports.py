@@ -8,6 +8,7 @@ from capfrac import snapshot
 from capfrac.errors import CaseError
 from capfrac.lab import biaxial, compaction, contacts, displacement, displacement_figures, figures, hydrate_ridge, percolation, percolation_figures, settling, tables, toughness
 from capfrac.lab.box import STRAIN_DRIVEN, Box
+from capfrac.runfolder import exactText
 
 
 def _settle(sample, own, run, base):
@@ -84,7 +85,7 @@ def _path(sample, own, run, base):
 def _biaxial(sample, own, run, base):
     found = biaxial.biaxial(sample, run=run, **own)
     for test in found["tests"]:
-        run.table(f"biaxial-{test['stress']:g}Pa", test["table"])
+        run.table(f"biaxial-{exactText(test['stress'], 'g')}Pa", test["table"])
     run.picture("biaxial", lambda path: figures.drawBiaxial(found, path))
     return {**found, "tests": [_withoutTable(test) for test in found["tests"]]}
 

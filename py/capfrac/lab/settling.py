@@ -13,6 +13,7 @@ import numpy as np
 from capfrac import sediment, snapshot
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
+from capfrac.runfolder import exactText
 
 #: Share of the grains with a contact at which the second stage, settling and rearrangement, begins [-].
 SETTLING_SHARE = 0.5
@@ -138,7 +139,8 @@ def scaling(sample, radii, stiffnesses, seeds=2, safety=0.6, run=None):
     for name, values, make in (("radius", radii, lambda r: {"rMin": r, "rMax": r * sample.rMax / sample.rMin}),
                                ("stiffness", stiffnesses, lambda k: {"normalStiffness": k, "shearStiffness": k * sample.shearStiffness / sample.normalStiffness})):
         points = [(float(value), sample.seed + seed) for value in values for seed in range(seeds)]
-        steps = [_settledStep(sediment.changed(sample, seed=seed, **make(value)), safety, run, f"{name} {value:g}, seed {seed}") for value, seed in points]
+        steps = [_settledStep(sediment.changed(sample, seed=seed, **make(value)), safety, run,
+                              f"{name} {exactText(value, 'g')}, seed {seed}") for value, seed in points]
         exponent, error = powerLaw([value for value, _ in points], steps)
         result[name] = {"x": [value for value, _ in points], "timeStep": steps, "exponent": exponent, "error": error}
     return result

@@ -181,6 +181,8 @@ def toughness(sample, halfLengths=(3.0, 5.0, 7.0, 10.0), seeds=3, stress=3e3, bo
     run = run or LabRun("toughness", {})
     if len(set(halfLengths)) < 2 or len(set(brokenContacts)) < 2 or min(halfLengths) <= 0:
         raise CaseError(f"halfLengths = {list(halfLengths)}, brokenContacts = {list(brokenContacts)}, allowed: at least two of each, > 0")
+    if any(broken != int(broken) for broken in brokenContacts):
+        raise CaseError(f"brokenContacts = {list(brokenContacts)}, allowed: whole numbers")
     if not 0 < stress <= 0.2 * bondStrength:
         raise CaseError(f"stress = {stress} Pa, allowed: 0 < stress <= 0.2 bondStrength = {0.2 * bondStrength:g} Pa")
     found = {"lattice": {"tests": []}, "samples": {"tests": []}}

@@ -129,9 +129,11 @@ def resolveSweep(raw, name, folder=".", source="sweep", overrides=()):
     beside = Path(folder) / head["case"]
     base = str(beside) if beside.is_file() else head["case"]
     points = [_point(base, fixed, rules, axes, source) for axes in _ordered(grids)]
-    for folder, count in Counter(point.name for point in points).items():
-        if count > 1:
-            raise CaseError(f"{source}: {count} points would be called {folder}: values of an axis must differ in their first six digits")
+    names = Counter(point.name.casefold() for point in points)  # some disks do not know capitals
+    for folder in (point.name for point in points):
+        if (count := names[folder.casefold()]) > 1:
+            raise CaseError(f"{source}: {count} points would be called {folder}: values of an axis must differ in "
+                            "their first six digits, or by more than capitals")
     _checkDifferent(points, source)
     columns = {key: units.get(key, getattr(_CASE_KEYS.get(key), "unit", "-")) for key in (*grids[0], *rules) if "." in key or key in units}
     return Sweep(name, head["title"], head["description"], head["figures"], columns, tuple(points))

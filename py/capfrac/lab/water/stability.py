@@ -17,6 +17,7 @@ from capfrac import sediment
 from capfrac.errors import CaseError
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
+from capfrac.runfolder import exactText
 
 #: Rows of a run.
 ROWS = 200
@@ -179,8 +180,11 @@ def stability(sample, bulkModuli=(1e7, 2.2e9), steps=100_000, stress=100e3, stra
     if any(not (value > 0 and math.isfinite(value)) for value in bulkModuli):
         raise CaseError(f"bulkModuli = {list(bulkModuli)}, allowed: > 0")
     stiffest = max(bulkModuli)
-    shaken = [("dry", None, "undrainedStable")] + [(f"{value:.3g} Pa", value, "undrainedStable") for value in bulkModuli]
-    shaken += [("incompressible", math.inf, "undrainedStable"), (f"{stiffest:.3g} Pa, implicit", stiffest, "implicit"), (f"{stiffest:.3g} Pa, explicit", stiffest, "explicit")]
+    name = f"{exactText(stiffest, '.3g')} Pa"
+    shaken = [("dry", None, "undrainedStable")]
+    shaken += [(f"{exactText(value, '.3g')} Pa", value, "undrainedStable") for value in bulkModuli]
+    shaken += [("incompressible", math.inf, "undrainedStable")]
+    shaken += [(f"{name}, {scheme}", stiffest, scheme) for scheme in ("implicit", "explicit")]
     found = {"shake": {name: run.result(f"shake {name}", lambda: shake(sample, value, scheme, steps, stress, run=run)) for name, value, scheme in shaken}}
     found["stir"] = {motion: run.result(motion, lambda: stir(sample, motion, steps, strain, stress, run=run)) for motion in MOTIONS}
     return found
