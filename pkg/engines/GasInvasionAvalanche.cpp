@@ -181,7 +181,9 @@ void GasInvasionEngine::noteBreakthrough()
 			breakthroughPressure = gasPressure;
 			breakthroughIter     = static_cast<int>(scene->iter);
 			breakthroughBroken   = countBroken();
-			breakthroughDisplacement = largestDisplacement(false);
+			breakthroughDisplacements = displacements();
+			breakthroughRattlers = rattlersNow();
+			breakthroughDisplacement = largestLoaded(breakthroughDisplacements, breakthroughRattlers);
 			return;
 		}
 }

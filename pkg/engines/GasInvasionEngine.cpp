@@ -132,7 +132,7 @@ void GasInvasionEngine::startFluids()
 		const auto* phys = dynamic_cast<const CohFrictPhys*>(interaction->phys.get());
 		if (phys && !phys->cohesionBroken) savedBonds.insert(savedBonds.end(), { interaction->getId1(), interaction->getId2() });
 	}
-	findRattlers();
+	rattlers = rattlersNow();
 	gasSaturation = saturation();
 	levelStart    = -1;
 	noteBreakthrough(); // an inlet may reach the outlet from the start

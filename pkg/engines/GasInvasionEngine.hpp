@@ -8,6 +8,7 @@
 #include "../fluids/EquationOfState.hpp"
 #include "../invasion/Imbibition.hpp"
 #include "../network/GasClusters.hpp"
+#include "../network/GrainClusters.hpp"
 
 namespace yade {
 
@@ -28,6 +29,8 @@ public:
 	Real                 pyRisePerPeriod();
 	boost::python::tuple pyInletStretch(int nPores, Real centre);
 	boost::python::list  pyBonds();
+	boost::python::list  pyRattlersNow();
+	boost::python::dict  pyDisplacements(bool atBreakthrough);
 	Real                 pyNextEntryPressure();
 	void                 pySetCellPressures(const std::vector<Real>& pressures) override;
 
@@ -88,15 +91,19 @@ private:
 	void                     checkInletPoints() const;
 	void                     noteBreakthrough();
 	void                     checkInvariantsNow(const capfrac::DrainageNetwork& network, const capfrac::Drainage& drainage) const;
+	Real                     saturation() const;
+	void                     closeLevel(bool balanced);
+	// GasInvasionGrains.cpp: what only the grains and their contacts know
 	Real                     gapGrowth(int edge) const;
 	bool                     bondBroken(Body::id_t a, Body::id_t b) const;
 	int                      countBroken() const;
-	void                     findRattlers();
+	std::vector<int>         rattlersNow() const;
+	std::vector<Real>        displacements() const;
+	Real                     largestLoaded(const std::vector<Real>& moved, const std::vector<int>& free) const;
 	Real                     unbalanced() const;
 	bool                     wallsAtRest() const;
-	Real                     saturation() const;
-	Real                     largestDisplacement(bool rattlersToo) const;
-	void                     closeLevel(bool balanced);
+	void                     brakeLooseGrains();
+	template <class Wanted> std::vector<capfrac::ContactPair> contactsThat(Wanted wanted) const;
 
 	// GasInvasionDisplacement.cpp: waterFlow = 'solved'
 	void                     checkWaterFlow() const;
@@ -160,7 +167,8 @@ public:
 
 Every step: the network follows the grains (:yref:`PoreNetworkEngine`); gas that hangs on the inlet advances through every throat whose entry pressure, Eq. 15 of
 [Jain2008]_ (corrected) with the gap as it is now, does not exceed $P_c = p_g - p_w$, the lowest first, until none is left (or one pore at a time: :yref:`invasionInterval<GasInvasionEngine.invasionInterval>`); gas pores then load the grains with $p_g$, water
-pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngine.pressureIncrement>` whenever the grains are at rest. Water is drained
+pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngine.pressureIncrement>` whenever the grains are at rest. A grain that has lost its contacts and feels no other force, which
+:yref:`NewtonIntegrator.damping` cannot slow down, loses its speed in the fluid around it: by $2d/T$, d being that damping and T the period of a mean grain on a mean contact. Water is drained
 (its pressure is constant), the gas inviscid. With :yref:`imbibition<GasInvasionEngine.imbibition>` water comes back when the pressure falls. Whether grains are pushed apart is decided by the contacts alone.)""",
 		((Real,interfacialTension,0.05,Attr::triggerPostLoad,"Interfacial tension $\\gamma$ of gas and water [N/m], > 0."))
 		((Real,contactAngle,0,Attr::triggerPostLoad,"Contact angle $\\theta$ through the water [rad], in [0, pi/2)."))
@@ -216,7 +224,9 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((Real,inletWidth,0,Attr::readonly,"Width of the wall that those domains cover [m] |yupdate|; 0 for points."))
 		((Real,breakthroughPressure,NaN,Attr::readonly,"Gas pressure when gas first reached the outlet wall [Pa] |yupdate|; NaN before."))
 		((int,breakthroughIter,-1,Attr::readonly,"Iteration of the breakthrough [-] |yupdate|; -1 before."))
-		((Real,breakthroughDisplacement,NaN,Attr::readonly,"Largest displacement of a loaded grain over its radius at the breakthrough [-] |yupdate|."))
+		((Real,breakthroughDisplacement,NaN,Attr::readonly,"Largest displacement of a loaded grain over its radius at the breakthrough [-] |yupdate|. A grain is loaded that bore load at the start and bears some now."))
+		((std::vector<Real>,breakthroughDisplacements,,(Attr::hidden|Attr::readonly),"Displacement of each grain over its radius at the breakthrough [-]."))
+		((std::vector<int>,breakthroughRattlers,,(Attr::hidden|Attr::readonly),"Grains that bore no load at the breakthrough [ids], ascending."))
 		((int,breakthroughBroken,-1,Attr::readonly,"Bonds broken until the breakthrough [-] |yupdate|; -1 before."))
 		((Real,restDisplacement,0.01,Attr::triggerPostLoad,"The sample counts as at rest only while no wall would move farther than this within minLevelSteps, in units of the smallest radius [-], > 0: a sample that comes apart steadily is balanced, but not at rest."))
 		((int,level,0,Attr::readonly,"Number of pressure levels that are finished [-] |yupdate|."))
@@ -229,7 +239,7 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((Real,waterExcess,0,Attr::readonly,"With ``waterFlow = 'solved'``: how far the water that is not cut off is from rest [Pa], a mean over its volume |yupdate|. A level lasts until that is at most an increment, or a hundredth of the capillary pressure where that is more: the ramp waits for the water, too. Not with wallFluxes or pointFluxes, nor below a pressure that is prescribed elsewhere."))
 		((int,nDetachedGas,0,Attr::readonly,"Domains of gas that are cut off from the inlet [-] |yupdate|; they keep the gas pressure (with imbibition: the one they had) and do not advance."))
 		((int,nReturns,0,Attr::readonly,"Number of events of imbibition so far: pores refilled, throats snapped off and opened again [-] |yupdate|."))
-		((std::vector<int>,rattlers,,Attr::readonly,"Grains that bore no load at the start: fewer than two contacts with at least a hundredth of the mean contact force [ids] |yupdate|."))
+		((std::vector<int>,rattlers,,Attr::readonly,"Grains that bore no load at the start: fewer than two contacts with at least a hundredth of the mean contact force [ids] |yupdate|. See :yref:`rattlersNow<GasInvasionEngine.rattlersNow>`."))
 		((std::vector<int>,savedBonds,,(Attr::hidden|Attr::readonly),"Pairs bonded at the start, for saving."))
 		((std::vector<Real>,savedStart,,(Attr::hidden|Attr::readonly),"Grains and box at the start [m], for saving."))
 		((std::vector<Vector3i>,eventBodies,,(Attr::hidden|Attr::readonly),"Cells of the events: three bodies each."))
@@ -249,12 +259,14 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		,
 		.def("events",&GasInvasionEngine::pyEvents,"The log of all invasions as a dict of lists: ``time`` [s], ``iteration``, ``level``, ``gasPressure`` [Pa], ``throat`` (two body ids), ``pore`` (body ids of its first cell), ``x``, ``y`` [m], ``entryPressure`` [Pa], ``gap`` [m], ``gapGrowth`` [m] since the start, ``bondBroken``, ``opened`` (bool), ``cells``, ``volume`` [m³].")
 		.def("imbibitionEvents",&GasInvasionEngine::pyImbibitionEvents,"The log of imbibition as a dict of lists: ``kind`` ('refill': a pore; 'snapOff', 'reopening': a throat), ``time`` [s], ``iteration``, ``level``, ``gasPressure`` [Pa], ``threshold`` [Pa] (refill, snap-off or entry pressure), ``throat`` (two body ids; -1 for a refill), ``pore`` (body ids of its first cell; -1 for a throat), ``x``, ``y`` [m], ``cells``, ``volume`` [m³] of the gas that left.")
-		.def("levels",&GasInvasionEngine::pyLevels,"The finished pressure levels as a dict of lists: ``pressure`` [Pa], ``gasSaturation`` [-], ``brokenBonds``, ``displacement`` and ``displacementWithRattlers`` (largest so far over the grain's radius [-]), ``unbalanced`` [-], ``atRest`` (bool), ``iteration``, ``gasVolume`` [m³].")
+		.def("levels",&GasInvasionEngine::pyLevels,"The finished pressure levels as a dict of lists: ``pressure`` [Pa], ``gasSaturation`` [-], ``brokenBonds``, ``displacement`` (the largest since the start, over the grain's radius, of the grains that bore load at the start and do now) and ``displacementWithRattlers`` (of all grains) [-], ``unbalanced`` [-], ``atRest`` (bool), ``iteration``, ``gasVolume`` [m³].")
 		.def("gasLedger",&GasInvasionEngine::pyGasLedger,"The ledger of the gas by mass as a dict [kg]: ``injected`` (``initial``, in the reservoir and the pores of the inlet at the start, and ``supplied`` since), ``sample``, ``cutOff`` (that part of it that does not hang on the inlet), ``reservoir``, and ``error``, the relative difference between what came in and what is there. The incompressible gas has the density of the ideal one at the datum.")
 		.def("history",&GasInvasionEngine::pyHistory,"The course of the injection as a dict of lists, a row per level or per :yref:`historyInterval<GasInvasionEngine.historyInterval>` steps: ``time`` [s], ``iteration``, ``gasPressure`` [Pa], ``connectedVolume`` (of the gas in the sample that hangs on the inlet [m³]), ``mass`` (injected [kg]), ``gasSaturation`` [-], ``brokenBonds``, ``level``.")
 		.def("risePerPeriod",&GasInvasionEngine::pyRisePerPeriod,"What the present :yref:`gasRate<GasInvasionEngine.gasRate>` adds to the pressure of the gas, at its present volume, within a period of a mean grain on a mean contact, 2 pi sqrt(m/k_n) [Pa]: in proportion to the rate. The grains stay near rest while it is a thousandth of the capillary pressure or less. Infinity without room for gas; 0 without contacts.")
 		.def("inletStretch",&GasInvasionEngine::pyInletStretch,(boost::python::arg("nPores"),boost::python::arg("centre")),"The stretch of the inlet wall that nPores neighbouring pores cover, as near to the coordinate `centre` [m] as there are: (from, to) [m]. :raises ValueError: when the wall has fewer pores")
 		.def("brokenBonds",&GasInvasionEngine::pyBonds,"Pairs of bodies that were bonded at the start and are not any more.")
+		.def("rattlersNow",&GasInvasionEngine::pyRattlersNow,"Grains that bear no load as the contacts are now, by the measure of :yref:`rattlers<GasInvasionEngine.rattlers>` [ids], ascending.")
+		.def("displacements",&GasInvasionEngine::pyDisplacements,(boost::python::arg("atBreakthrough")=false),"How far each grain has moved since the start, now or at the breakthrough (no grains before it), as a dict of lists: ``ids``, ``displacement`` (over the grain's radius [-]), ``rattlerAtStart``, ``rattler`` (bool: whether it bore no load then).")
 		.def("nextEntryPressure",&GasInvasionEngine::pyNextEntryPressure,"The lowest entry pressure that the injected gas meets now [Pa], at the datum; infinity where there is none.")
 	);
 	// clang-format on

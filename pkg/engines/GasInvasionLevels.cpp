@@ -15,6 +15,7 @@ namespace {
 
 void GasInvasionEngine::finishStep()
 {
+	brakeLooseGrains();
 	if (historyInterval > 0 && scene->iter % historyInterval == 0) recordHistory();
 	constexpr int checkPeriod = 10; // the check costs about as much as the rest of the engine
 	if (rampDone || scene->iter % checkPeriod != 0 || !levelDue()) return;
@@ -32,7 +33,9 @@ void GasInvasionEngine::closeLevel(bool balanced)
 	gasSaturation = saturation();
 	syncContents();
 	Vector6r numbers;
-	numbers << gasPressure, gasSaturation, unbalanced(), largestDisplacement(false), largestDisplacement(true), thickness * contents.totalGas();
+	const auto moved = displacements();
+	numbers << gasPressure, gasSaturation, unbalanced(), largestLoaded(moved, rattlersNow()), *std::max_element(moved.begin(), moved.end()),
+	        thickness * contents.totalGas();
 	levelNumbers.push_back(numbers);
 	levelCounts.push_back(Vector3i(static_cast<int>(scene->iter), countBroken(), balanced ? 1 : 0));
 	++level;

@@ -1,117 +1,13 @@
-/// What GasInvasionEngine measures and reports: bonds, displacements, rest, and its logs for Python.
+/// What GasInvasionEngine saves and reports: its logs for Python.
 
 #include "GasInvasionEngine.hpp"
 #include "Walls.hpp"
 
 #include <core/Omega.hpp>
-#include <pkg/common/NormShearPhys.hpp>
-#include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
-
-#include <algorithm>
 
 namespace yade {
 
 namespace py = boost::python;
-
-namespace {
-
-	/// Normal force over the mean from which a contact bears load [-]; the rest are grazing. A grain held by less
-	/// than that floats as soon as gas is on one side of it, even where the sample as a whole is rigid: in the
-	/// paper's coarse case the gas pushes a grain with about a hundredth of the mean contact force.
-	constexpr Real loadedShare = 0.01;
-
-	Real normalForce(const Interaction& interaction)
-	{
-		const auto* phys = dynamic_cast<const NormShearPhys*>(interaction.phys.get());
-		return phys ? phys->normalForce.norm() : 0;
-	}
-
-} // namespace
-
-bool GasInvasionEngine::bondBroken(Body::id_t a, Body::id_t b) const
-{
-	bool bonded = false;
-	for (std::size_t k = 0; k + 1 < savedBonds.size() && !bonded; k += 2)
-		bonded = (savedBonds[k] == a && savedBonds[k + 1] == b) || (savedBonds[k] == b && savedBonds[k + 1] == a);
-	if (!bonded) return false;
-	const auto interaction = scene->interactions->find(a, b);
-	if (!interaction || !interaction->isReal()) return true;
-	const auto* phys = dynamic_cast<const CohFrictPhys*>(interaction->phys.get());
-	return !phys || phys->cohesionBroken;
-}
-
-int GasInvasionEngine::countBroken() const
-{
-	int n = 0;
-	for (std::size_t k = 0; k + 1 < savedBonds.size(); k += 2)
-		n += bondBroken(savedBonds[k], savedBonds[k + 1]);
-	return n;
-}
-
-Real GasInvasionEngine::gapGrowth(int e) const
-{
-	const auto& edge = mesh.edges[e];
-	return gaps[e] - capfrac::gap(mesh, edge.a, edge.b, startGrains, startBox);
-}
-
-void GasInvasionEngine::findRattlers()
-{
-	struct Contact {
-		int a, b;
-	};
-	Real sum = 0;
-	int  n   = 0;
-	for (const auto& interaction : *scene->interactions)
-		if (interaction->isReal()) sum += normalForce(*interaction), ++n;
-	std::vector<Contact> loaded;
-	for (const auto& interaction : *scene->interactions)
-		if (interaction->isReal() && normalForce(*interaction) > loadedShare * sum / n)
-			loaded.push_back({ reader.vertexOf(interaction->getId1()), reader.vertexOf(interaction->getId2()) });
-
-	// Taking a rattler away may leave its neighbour with one contact: repeat until nothing changes.
-	std::vector<char> bears(reader.grains.size() + capfrac::nWalls, 1);
-	for (bool changed = true; changed;) {
-		std::vector<int> nContacts(bears.size(), 0);
-		for (const auto& c : loaded)
-			if (bears[c.a] && bears[c.b]) ++nContacts[c.a], ++nContacts[c.b];
-		changed = false;
-		for (std::size_t i = 0; i < reader.grains.size(); ++i)
-			if (bears[i] && nContacts[i] < 2) bears[i] = 0, changed = true;
-	}
-	rattlers.clear();
-	for (std::size_t i = 0; i < reader.grains.size(); ++i)
-		if (!bears[i]) rattlers.push_back(reader.grainIds[i]);
-}
-
-Real GasInvasionEngine::unbalanced() const
-{
-	Real resultant = 0, contact = 0;
-	int  nContacts = 0;
-	for (auto id : reader.grainIds)
-		resultant += scene->forces.getForce(id).norm();
-	for (const auto& interaction : *scene->interactions)
-		if (interaction->isReal()) contact += normalForce(*interaction), ++nContacts;
-	if (nContacts == 0 || contact == 0) return resultant > 0 ? std::numeric_limits<Real>::infinity() : 0;
-	return (resultant / reader.grainIds.size()) / (contact / nContacts);
-}
-
-bool GasInvasionEngine::wallsAtRest() const
-{
-	const Real limit = restDisplacement * smallestRadius();
-	for (auto id : reader.wallIds)
-		if ((*scene->bodies)[id]->state->vel.norm() * scene->dt * minLevelSteps > limit) return false;
-	return true;
-}
-
-Real GasInvasionEngine::largestDisplacement(bool rattlersToo) const
-{
-	Real largest = 0;
-	for (std::size_t i = 0; i < reader.grains.size(); ++i) {
-		if (!rattlersToo && std::binary_search(rattlers.begin(), rattlers.end(), reader.grainIds[i])) continue;
-		largest = math::max(largest, capfrac::norm(reader.grains[i].centre - startGrains[i].centre) / reader.grains[i].radius);
-	}
-	return largest;
-}
 
 void GasInvasionEngine::preSave(GasInvasionEngine&)
 {

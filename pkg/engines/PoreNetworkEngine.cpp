@@ -94,12 +94,11 @@ void PoreNetworkEngine::checkSizes(const SceneReader& from) const
 	throw std::runtime_error(text.str());
 }
 
-bool PoreNetworkEngine::grainsMove() const
+const NewtonIntegrator* PoreNetworkEngine::integrator() const
 {
-	return std::any_of(scene->engines.begin(), scene->engines.end(), [](const auto& engine) {
-		const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get());
-		return newton && !newton->dead;
-	});
+	for (const auto& engine : scene->engines)
+		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get()); newton && !newton->dead) return newton;
+	return nullptr;
 }
 
 void PoreNetworkEngine::checkTimeStep() const

@@ -9,6 +9,8 @@
 
 namespace yade {
 
+class NewtonIntegrator;
+
 /// What every fluid engine shares: the network that follows the grains, and the forces of its pressures.
 ///
 /// action() = gather -> follow the network -> advanceFluids() of the derived engine -> scatter forces.
@@ -66,8 +68,10 @@ protected:
 	virtual bool drained() const { return true; }
 	/// Partition of the cells anew, after phases or open edges changed.
 	void findDomains();
+	/// The integrator that moves the grains; none where all are dead.
+	const NewtonIntegrator* integrator() const;
 	/// Whether an integrator moves the grains; without one they stand still, whatever their forces and velocities.
-	bool grainsMove() const;
+	bool grainsMove() const { return integrator() != nullptr; }
 	bool prepared() const { return !mesh.cells.empty(); }
 	Real smallestRadius() const;
 

@@ -20,8 +20,7 @@ capfrac::Skeleton SinglePhaseFlowEngine::skeleton() const
 	skeleton.force.assign(2 * n + capfrac::nWalls, 0);
 	skeleton.mass.assign(2 * n + capfrac::nWalls, std::numeric_limits<double>::infinity());
 	Vector3r weight = Vector3r::Zero();
-	for (const auto& engine : scene->engines)
-		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get())) weight = newton->gravity, skeleton.damping = newton->damping;
+	if (const auto* newton = integrator()) weight = newton->gravity, skeleton.damping = newton->damping;
 	scene->forces.sync();
 	for (int i = 0; i < n; ++i) {
 		const auto& body  = *(*scene->bodies)[reader.grainIds[i]];

@@ -52,7 +52,7 @@ class Snapshot:
     y: np.ndarray  #: (n,) centres [m]
     r: np.ndarray  #: (n,) radii [m]
     displacement: np.ndarray  #: (n, 2) since the start [m]
-    rattler: np.ndarray  #: (n,) bool: bore no load at the start
+    rattler: np.ndarray  #: (n,) bool: bore no load at the start, or bears none now
 
     contacts: np.ndarray  #: (m, 2) body ids; of a contact with a wall, too
     contactEnds: np.ndarray  #: (m, 2, 2) centres of the two grains; for a wall the foot of the other's centre on it [m]
@@ -184,7 +184,7 @@ def takeSnapshot(gas, start=None):
     walls = {wall.id: wall for wall in O.bodies if isinstance(wall.shape, Wall)}
     wallIds = _orderedWalls(walls.values())
 
-    rattlers = set(getattr(gas, "rattlers", []))
+    rattlers = {*gas.rattlers, *gas.rattlersNow()} if hasattr(gas, "rattlers") else set()
     cells, throats = gas.cells(), gas.throats()
     # The engine's own gasSaturation is that of the last avalanche; the picture shows the voids as they are now.
     snapshot = Snapshot(

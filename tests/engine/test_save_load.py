@@ -69,31 +69,42 @@ def test_stateIsTheSameToTheBit(loadSample, tmp_path, steps, supply):
 PACKAGED = "COMPLEX_MP" in config.features
 
 
-# Where the grains move much, YADE's collider, which starts anew with a loaded scene, finds new contacts in another order, and
-# forces are summed in that order: under the rate the later cut is before the sample comes apart.
-@pytest.mark.parametrize("supply, cut", [({}, 300), ({}, 1100), (SUPPLIED, 300), (SUPPLIED, 600)], ids=["ramp-300", "ramp-1100", "rate-300", "rate-600"])
+def stepsWith(steps):
+    """Runs so many steps; after each: the contacts in the order in which YADE sums their forces, the grains, the gas engine's numbers."""
+    rows = []
+    for _ in range(steps):
+        O.step()
+        gas = sediment.engine("gas")
+        contacts = [(i.id1, i.id2) for i in O.interactions if i.isReal]
+        rows.append((contacts, [(tuple(b.state.pos), tuple(b.state.vel)) for b in O.bodies],
+                     (gas.gasPressure, gas.gasSaturation, gas.nEvents, gas.nRemeshes, gas.level, gas.rampDone, gas.reservoirMass)))
+    return rows
+
+
+@pytest.mark.parametrize("supply, cut", [({}, 300), ({}, 1100), (SUPPLIED, 300), (SUPPLIED, 600)],
+                         ids=["ramp-300", "ramp-1100", "rate-300", "rate-600"])
 def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path, cut, supply):
+    # YADE's collider starts anew with a loaded scene. The next contacts that it finds stand in another order in its
+    # list, in which forces are summed, and a sample that fractures amplifies the last digit: so the runs are compared
+    # for as long as that order is the same.
     def run(interrupt):
         loadSample(1e-6)
         injection.startInjection(**STARTED, **supply)
-        O.run(cut, True)
+        sediment.advance(cut)
         if interrupt:
+            before = reports(sediment.engine("gas"))
             reload(tmp_path)
-        O.run(2000 - cut, True)
-        gas = sediment.engine("gas")
-        return reports(gas), attributesOf(gas), [(tuple(b.state.pos), tuple(b.state.vel)) for b in O.bodies]
+            assert same(reports(sediment.engine("gas")), before)
+        return stepsWith(300)
 
     whole, continued = run(False), run(True)
-    assert len(whole[0]["events"]["throat"]) > 3 and whole[1]["nRemeshes"] > 0
-    for column in whole[0]["events"]:
-        if PACKAGED and isinstance(whole[0]["events"][column][0], float):
-            # Debian's YADE (other optimisation, assertions) differs in the last digits after loading; 2000 steps let 2e-16
-            # grow to 1e-13 there, so 1e-9 still tells a restart from a rerun by four orders.
-            assert continued[0]["events"][column] == pytest.approx(whole[0]["events"][column], rel=1e-9, abs=1e-15), column
+    shared = next((k for k, (a, b) in enumerate(zip(whole, continued)) if a[0] != b[0]), len(whole))
+    assert shared >= 5
+    for k, (a, b) in enumerate(zip(whole[:shared], continued)):
+        if PACKAGED:  # Debian's YADE (other optimisation, assertions) differs in the last digits after loading
+            assert np.array(a[1]) == pytest.approx(np.array(b[1]), rel=1e-9, abs=1e-15) and a[2] == pytest.approx(b[2], rel=1e-9), k
         else:
-            assert continued[0]["events"][column] == whole[0]["events"][column], column
-    if not PACKAGED:
-        assert same(continued, whole)
+            assert a == b, k
 
 
 def test_continuedImbibitionIsTheUninterruptedOne(loadSample, tmp_path):
