@@ -8,6 +8,10 @@ from capfrac import sediment
 from capfrac.casepacking import packingOf
 from capfrac.gasengine import addMenisci, startInjection
 
+#: Pressure between the levels on record of a run at a rate, unless the case says otherwise, over gamma / r [-]: about
+#: a hundredth of the pressure at which gas percolates (4.65).
+LEVEL_SHARE = 0.05
+
 
 def makeSample(case, say):
     """The case's sample in the (empty) current scene: grains at rest under the stresses, contacts bonded."""
@@ -36,6 +40,15 @@ def _inletPoints(inlet, walls):
     return [(x, y)] + [(x + r * math.cos(angle), y + r * math.sin(angle)) for r in circles for angle in np.arange(8) * math.pi / 4]
 
 
+def _increment(case):
+    """Step of the pressure, of a ramp or between levels on record [Pa]."""
+    given, control = case["ramp"]["increment"], case["supply"]["control"]
+    if given is not None or control == "reservoir":
+        return given or 0.0
+    radius = float(np.mean([body.shape.radius for body in sediment.grainBodies()]))
+    return LEVEL_SHARE * case["gas"]["interfacialTension"] / radius
+
+
 def startGas(case):
     """The gas engine that the case asks for, and its menisci, in a scene with its sample; returns the engine."""
     inlet, gas, water, ramp, supply, network = (case[section] for section in ("inlet", "gas", "water", "ramp", "supply", "network"))
@@ -44,7 +57,7 @@ def startGas(case):
     low = walls["bottom" if axis else "left"].state.pos[axis]
     stretch = None if inlet["from"] is None else (low + inlet["from"], low + inlet["to"])
     engine = startInjection(
-        ramp["start"], ramp["increment"], ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"], stretch,
+        ramp["start"], _increment(case), ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"], stretch,
         _inletPoints(inlet, walls),
         interfacialTension=gas["interfacialTension"], contactAngle=math.radians(gas["contactAngle"]), entryLaw=gas["entryLaw"],
         gasLaw=gas["law"], gasMolarMass=gas["molarMass"], gasTemperature=gas["temperature"], gasDeviation=gas["deviation"],

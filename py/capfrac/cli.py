@@ -61,8 +61,10 @@ class _Progress:
 
             if sys.stderr.isatty():
                 sys.stderr.write("\r\033[K")
-            self.meter = tqdm(total=self.ramp["max"] - self.ramp["start"], unit="Pa", unit_scale=True, desc="gas", mininterval=0.5 if sys.stderr.isatty() else 15,
-                              bar_format="{desc} {percentage:3.0f}%|{bar:25}| {elapsed}<{remaining} {postfix}" if self.ramped else "{desc} {elapsed} {postfix}")
+            total = self.ramp["max"] - self.ramp["start"] if self.ramped else None
+            bar = "{percentage:3.0f}%|{bar:25}| {elapsed}<{remaining}" if self.ramped else "{elapsed}"
+            self.meter = tqdm(total=total, unit="Pa", unit_scale=True, desc="gas", bar_format=f"{{desc}} {bar} {{postfix}}",
+                              mininterval=0.5 if sys.stderr.isatty() else 15)
         self.meter.set_postfix_str(f"P_c = {pressure:.4g} Pa, S_g = {saturation:.1%}", refresh=False)
         self.meter.update(pressure - self.ramp["start"] - self.meter.n if self.ramped else 1)
 

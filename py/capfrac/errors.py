@@ -6,7 +6,20 @@ class CapfracError(Exception):
 
 
 class CaseError(CapfracError, ValueError):
-    """A case file or an argument with an unknown or impossible entry. Names the key, the value and what is allowed."""
+    """A case file or arguments with unknown or impossible entries. Names each key, its value and what is allowed.
+
+    ``problems`` holds a text for each thing that is wrong; ``source``, where given, names the file that they are in.
+    """
+
+    def __init__(self, *problems, source=""):
+        super().__init__(*problems)
+        self.problems, self.source = [str(problem) for problem in problems], source
+
+    def __str__(self):
+        start = f"{self.source}: " if self.source else ""
+        if len(self.problems) == 1:
+            return start + self.problems[0]
+        return f"{start}{len(self.problems)} problems\n" + "\n".join(f"  - {problem}" for problem in self.problems)
 
 
 class SampleError(CapfracError):

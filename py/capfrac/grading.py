@@ -12,13 +12,13 @@ real sediment is thus met in per cent by mass, not in numbers of grains.
 """
 
 import math
-import numbers
 from dataclasses import dataclass
 
 import numpy as np
 
 from capfrac.errors import CaseError
 from capfrac.tables import Column, readTable
+from capfrac.values import isPositive, shown
 
 
 def _strata(count, rng):
@@ -28,8 +28,14 @@ def _strata(count, rng):
 
 def _requirePositive(owner, **values):
     for name, value in values.items():
-        if isinstance(value, bool) or not (isinstance(value, numbers.Real) and math.isfinite(value) and value > 0):
-            raise CaseError(f"{owner}.{name} = {value!r}, allowed: a finite number > 0")
+        if not isPositive(value):
+            raise CaseError(f"{owner}.{name} = {shown(value)}, allowed: a finite number > 0")
+
+
+def _number(value):
+    if isinstance(value, (bool, str)):
+        raise TypeError(value)
+    return float(value)
 
 
 @dataclass(frozen=True)
@@ -98,9 +104,10 @@ class Sieve:
 
     def __post_init__(self):
         try:
-            d, p = tuple(map(float, self.diameter)), tuple(map(float, self.passing))
-        except (TypeError, ValueError):
-            raise CaseError(f"sieve curve: diameters {self.diameter!r}, passing {self.passing!r}; allowed: numbers") from None
+            d, p = tuple(map(_number, self.diameter)), tuple(map(_number, self.passing))
+        except (TypeError, ValueError, OverflowError):
+            raise CaseError(f"sieve curve: diameters {shown(self.diameter)}, passing {shown(self.passing)}; "
+                            "allowed: numbers") from None
         object.__setattr__(self, "diameter", d)
         object.__setattr__(self, "passing", p)
         if len(d) != len(p) or len(d) < 2:

@@ -146,7 +146,7 @@ class Run:
             return f"{figures.quantity(O.time - before['startTime [s]'], 's')} are over"
         if supply["control"] == "reservoir" and self.gas.rampDone:
             return "the grains are at rest under the gas of the reservoir"
-        if supply["control"] != "pressure" and pressure >= ramp["max"]:
+        if supply["control"] != "pressure" and ramp["max"] is not None and pressure >= ramp["max"]:
             return f"the capillary pressure reached ramp.max = {figures.quantity(ramp['max'], 'Pa')}"
         if supply["program"] and self.gas.rampDone:
             return "the program is done"
@@ -157,7 +157,8 @@ class Run:
     def stops(self):
         """Pressures at which snapshots are asked for, those on the way, ascending, each once [Pa]."""
         ramp = self.case["ramp"]
-        return sorted({float(p) for p in self.case["output"]["pressures"] if ramp["start"] <= p < ramp["max"]})
+        highest = math.inf if ramp["max"] is None else ramp["max"]
+        return sorted({p for p in self.case["output"]["pressures"] if ramp["start"] <= p < highest})
 
     def loop(self, bar):
         """Run to the end, with snapshots on the way."""
@@ -169,7 +170,8 @@ class Run:
         seen = 0
         while True:
             gas = self.gas  # another one after each checkpoint
-            gas.maxPressure = water + (stops[0] if stops and self.ramped else self.case["ramp"]["max"])
+            if self.ramped:
+                gas.maxPressure = water + (stops[0] if stops else self.case["ramp"]["max"])
             sediment.advance(CHUNK - O.iter % CHUNK)
             bar(gas.gasPressure - water, gas.gasSaturation)
             if gas.nEvents > seen:
@@ -231,8 +233,9 @@ def versions():
 def inject(case, folder, restart=False, report=print, bar=lambda pressure, saturation: None, replaceScene=False):
     """Run a case into a run folder and return its summary (a dict, the content of summary.json).
 
-    ``case``: a name of a shipped case, a path, a resolved case, or a dict of sections. A folder that holds an
-    unfinished run of the same parameters is taken up where it stopped; a finished one is returned as it is.
+    ``case``: a name of a shipped case, a path, a resolved case, or a dict of sections, which stays as it is. A folder
+    that holds an unfinished run of the same parameters is taken up where it stopped; a finished one is returned as it
+    is.
     ``report(text)`` and ``bar(pressure [Pa], saturation)`` show progress. Interrupted (Ctrl-C), the run folder is left
     usable and the interruption goes on to the caller. In a session with bodies in the scene, ``replaceScene`` says that
     they may go; :class:`SceneError` otherwise. Errors name the key, body or file at fault.
@@ -242,10 +245,7 @@ def inject(case, folder, restart=False, report=print, bar=lambda pressure, satur
     capfrac.load_engines()
     from yade import O
 
-    if not isinstance(case, dict):
-        case = readCase(case)
-    elif "name" not in case.get("case", {}):
-        case = resolveCase(case)
+    case = resolveCase(case) if isinstance(case, dict) else readCase(case)
     if len(O.bodies) and not replaceScene:
         raise SceneError(f"the scene holds {len(O.bodies)} bodies; call O.reset() first, or inject(..., replaceScene=True) to let them go")
     warnings = [*case["case"].get("warnings", ()), *checkPacking(case)]

@@ -1,17 +1,19 @@
 """Keys of case files and of tests: one list of them says what may be given, in which unit, and what the defaults are.
 
 The reader, the checks and the help all come from that list. An unknown key, a value of the wrong kind or out of range
-is refused by name, with what is allowed.
+is refused by name, with what is allowed; all that is wrong is said at once.
 """
 
 import difflib
-import math
-import tomllib
 from dataclasses import dataclass
 
+from capfrac import conditions
 from capfrac.errors import CaseError
+from capfrac.values import asFloat, asInt, shown
 
 REQUIRED = object()
+#: Largest whole number of a key that does not say otherwise [-]: what the engines hold (C++ int).
+LARGEST_INT = 2**31 - 1
 
 
 @dataclass(frozen=True)
@@ -26,8 +28,17 @@ class Key:
     meaning: str
     low: float | None = None  #: lowest value
     openLow: bool = False  #: whether the lowest value itself is excluded
-    high: float | None = None  #: highest value
+    high: float | None = None  #: highest value; of whole numbers LARGEST_INT unless given
     choices: tuple = ()
+    demanded: str = ""  #: condition (see :mod:`capfrac.conditions`) under which a key without default must be given
+    #: Condition without which the key would have no effect, so that another value than its default is refused.
+    needs: str = ""
+    #: The same for what describes rather than steers (a property of a fluid): ignored then, with a warning.
+    usedWith: str = ""
+
+    def __post_init__(self):
+        if self.kind is int and self.high is None:
+            object.__setattr__(self, "high", LARGEST_INT)
 
     @property
     def path(self):
@@ -39,66 +50,158 @@ class Key:
         if self.choices:
             return ", ".join(f"'{choice}'" for choice in self.choices)
         words = {int: "a whole number", float: "a number", str: "a text", bool: "true or false", list: "a list"}[self.kind]
+        number = "d" if self.kind is int else "g"
         if self.low is not None:
-            words += f" {'>' if self.openLow else '>='} {self.low:g}"
+            words += f" {'>' if self.openLow else '>='} {self.low:{number}}"
         if self.high is not None:
-            words += f"{' and' if self.low is not None else ''} <= {self.high:g}"
+            words += f"{' and' if self.low is not None else ''} <= {self.high:{number}}"
         return words + (f" [{self.unit}]" if self.unit != "-" else "")
 
+    def checked(self, value):
+        """``value`` as it is used, checked by itself.
 
-def positive(section, name, unit, default, meaning):
+        Raises :class:`CaseError` naming the key, the value and what is allowed.
+        """
+        if value is None:
+            return None
+        value = value.tolist() if hasattr(value, "tolist") else value  # numpy's numbers and arrays
+        found = {int: asInt, float: asFloat}.get(self.kind, self._asItIs)(value)
+        good = found is not None and (not self.choices or found in self.choices)
+        if good and self.kind in (int, float):
+            good &= self.low is None or found > self.low or (found == self.low and not self.openLow)
+            good &= self.high is None or found <= self.high
+        if not good:
+            raise CaseError(f"{self.path} = {shown(value)}, allowed: {self.allowed()}")
+        return found
+
+    def _asItIs(self, value):
+        if self.kind is list:
+            return list(value) if isinstance(value, (list, tuple)) else None
+        return value if isinstance(value, self.kind) else None
+
+
+def positive(section, name, unit, default, meaning, **options):
     """A key for a number > 0."""
-    return Key(section, name, float, unit, default, meaning, low=0, openLow=True)
+    return Key(section, name, float, unit, default, meaning, low=0, openLow=True, **options)
 
 
-def notNegative(section, name, unit, default, meaning):
+def notNegative(section, name, unit, default, meaning, **options):
     """A key for a number >= 0."""
-    return Key(section, name, float, unit, default, meaning, low=0)
+    return Key(section, name, float, unit, default, meaning, low=0, **options)
 
 
-def readToml(path):
-    """The sections of a TOML file as dicts, unchecked. Raises :class:`CaseError` where it is not TOML; OSError passes.
-
-    A byte order mark, which editors on Windows put in front, is not part of it.
-    """
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except UnicodeDecodeError:
-        raise CaseError(f"{path} is not a text in UTF-8") from None
-    except tomllib.TOMLDecodeError as problem:
-        raise CaseError(f"{path} is not valid TOML: {problem}") from None
+class _Unsound(Exception):
+    """A check asked for a key that was refused."""
 
 
-def override(raw, text):
-    """Put ``section.key=value`` (a TOML value) into unchecked sections."""
-    name, equals, value = text.partition("=")
-    section, dot, key = name.strip().partition(".")
-    if not (equals and dot):
-        raise CaseError(f"'{text}' is not of the form section.key=value, for example grains.seed=7")
-    try:
-        entries = raw.setdefault(section, {})
-        if isinstance(entries, dict):  # else resolve() will say what is wrong with it
-            entries[key] = tomllib.loads(f"value = {value}")["value"]
-    except tomllib.TOMLDecodeError:
-        raise CaseError(f"{name.strip()} = {value}: not a TOML value (texts need quotes)") from None
+class _Sound(dict):
+    """The keys of a section that are good as such; who asks for another one cannot go on."""
+
+    def __missing__(self, name):
+        raise _Unsound(name)
 
 
-def resolve(raw, keys, source):
-    """Check sections against a list of keys and fill in the defaults: a dict of sections, each with every key of it.
+def check(raw, keys, checks=(), tolerated=()):
+    """Check sections against a list of keys: ``(sections, problems, warnings)``, a dict of sections and lists of texts.
 
-    ``source`` names the file in messages. Raises :class:`CaseError` naming the key, the value and what is allowed.
+    Sections have every key, with its default where it is not given, but for those that are refused. ``checks``:
+    functions (sections) -> texts, what does not fit together; one that asks for a refused key is left where it asks.
+    Keys without effect get their default: where they are ``usedWith`` something that is not there with a warning, where
+    they have ``needs`` only if their path is among ``tolerated``, else they are a problem.
     """
     known = sections(keys)
+    sound = {section: _Sound() for section in known}
+    if not isinstance(raw, dict):
+        return sound, [f"{shown(raw)}, needed: a dict of sections"], []
+    problems, warnings = list(_unknown(raw, known)), []
+    for key in keys:
+        value = _given(key, raw)
+        try:
+            if value is not REQUIRED and isinstance(raw.get(key.section, {}), dict):
+                sound[key.section][key.name] = key.checked(value)
+        except CaseError as problem:
+            problems += problem.problems
+    idle = {}
+    for key in keys:
+        problems += collected(_missing, key, raw, sound)
+        for refusal, warning in collected(_idle, key, sound):
+            if key.usedWith or key.path in tolerated:
+                idle[key] = warning
+            else:
+                problems.append(refusal)
+    for key, warning in idle.items():
+        warnings.append(warning)
+        sound[key.section][key.name] = key.checked(key.default)
+    for check in checks:
+        problems += collected(check, sound)
+    return sound, problems, warnings
+
+
+def resolve(raw, keys, source, checks=()):
+    """Check sections (see :func:`check`) and fill in the defaults: a dict of sections, each with every key of it.
+
+    ``source`` names the file in messages. Raises :class:`CaseError` with all problems, each naming the key, the value
+    and what is allowed.
+    """
+    sound, problems, _ = check(raw, keys, checks)
+    if problems:
+        raise CaseError(*problems, source=source)
+    return {section: dict(entries) for section, entries in sound.items()}
+
+
+def _unknown(raw, known):
     for section, entries in raw.items():
         if section not in known:
-            raise CaseError(f"{source}: unknown section [{section}]{didYouMean(section, known)}")
-        if not isinstance(entries, dict):
-            raise CaseError(f"{source}: '{section}' stands outside of a section; allowed sections: {', '.join(known)}")
-        for name in entries:
-            if name not in known[section]:
-                raise CaseError(f"{source}: unknown key {section}.{name}{didYouMean(name, known[section])}")
-    return {section: {name: _value(key, raw.get(section, {}).get(name, key.default), source) for name, key in entries.items()}
-            for section, entries in known.items()}
+            yield f"unknown section [{section}]{didYouMean(section, known)}"
+        elif not isinstance(entries, dict):
+            yield f"'{section}' stands outside of a section; allowed sections: {', '.join(known)}"
+        else:
+            for name in entries:
+                if name not in known[section]:
+                    yield f"unknown key {section}.{name}{didYouMean(name, known[section])}"
+
+
+def collected(check, *arguments):
+    """What a check finds until it asks for a key that was refused."""
+    found = []
+    try:
+        for problem in check(*arguments):
+            found.append(problem)
+    except _Unsound:
+        pass
+    return found
+
+
+def _given(key, raw):
+    """What the sections say of a key; its default where they say nothing, or None (as a Python dict may)."""
+    entries = raw.get(key.section, {})
+    value = entries.get(key.name) if isinstance(entries, dict) else None
+    return key.default if value is None else value
+
+
+def _missing(key, raw, sound):
+    demanded = key.demanded and sound[key.section][key.name] is None and conditions.holds(key.demanded, sound)
+    if demanded or _given(key, raw) is REQUIRED:
+        yield f"{key.path} is missing; needed: {key.allowed()}"
+
+
+def _idle(key, sound):
+    """Of a key that has no effect: what is allowed, and how a warning says it."""
+    condition, value = key.needs or key.usedWith, sound[key.section][key.name]
+    if condition and value != key.checked(key.default) and not conditions.holds(condition, sound):
+        why = conditions.asItIs(condition, sound)
+        value = str(value).lower() if isinstance(value, bool) else shown(value)
+        only = f"it has an effect only {conditions.inWords(condition)}"
+        yield (f"{key.path} = {value}, allowed: {_asText(key.default)} {why}; {only}",
+               f"{key.path} = {value} is ignored {why}: {only}")
+
+
+def _asText(default):
+    if default is None or default == () or default == "":
+        return "none"
+    if isinstance(default, bool):
+        return str(default).lower()
+    return f"{default:g}" if isinstance(default, float) else shown(default)
 
 
 def sections(keys):
@@ -108,26 +211,9 @@ def sections(keys):
 
 def didYouMean(name, known):
     """End of a message about an unknown name: what it may have been meant to be, or what there is."""
-    close = difflib.get_close_matches(name, known, n=1)
-    return f"; did you mean '{close[0]}'?" if close else f"; known: {', '.join(known)}"
-
-
-def _value(key, value, source):
-    if value is REQUIRED:
-        raise CaseError(f"{source}: {key.path} is missing; needed: {key.allowed()}")
-    if value is None:
-        return None
-    good = isinstance(value, (int, float) if key.kind is float else (list, tuple) if key.kind is list else key.kind)
-    good &= not (isinstance(value, bool) and key.kind is not bool)
-    if good and key.kind in (int, float):
-        good &= math.isfinite(value)
-        good &= key.low is None or value > key.low or (value == key.low and not key.openLow)
-        good &= key.high is None or value <= key.high
-    if good and key.choices:
-        good &= value in key.choices
-    if not good:
-        raise CaseError(f"{source}: {key.path} = {value!r}, allowed: {key.allowed()}")
-    return float(value) if key.kind is float else list(value) if key.kind is list else value
+    close = difflib.get_close_matches(str(name), known, n=1)
+    names = [*known][:20] + ["…"] * (len(known) > 20)
+    return f"; did you mean '{close[0]}'?" if close else f"; known: {', '.join(names)}"
 
 
 def describe(keys):
@@ -136,7 +222,15 @@ def describe(keys):
     for section, entries in sections(keys).items():
         lines.append(f"[{section}]")
         for key in entries.values():
-            default = "needed" if key.default is REQUIRED else "optional" if key.default is None else f"default {key.default!r}"
-            lines.append(f"  {key.name} [{key.unit}]: {key.meaning} ({default}; {key.allowed()})")
+            use = f"; only {conditions.inWords(key.needs or key.usedWith)}" if key.needs or key.usedWith else ""
+            lines.append(f"  {key.name} [{key.unit}]: {key.meaning} ({_defaultInWords(key)}; {key.allowed()}{use})")
         lines.append("")
     return "\n".join(lines)
+
+
+def _defaultInWords(key):
+    if key.default is REQUIRED:
+        return "needed"
+    if key.default is not None:
+        return f"default {key.default!r}"
+    return f"needed {conditions.inWords(key.demanded)}" if key.demanded else "optional"

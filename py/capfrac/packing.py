@@ -10,6 +10,7 @@ from capfrac.tables import Column, readTable
 
 #: Radius from which on a grain is a boulder, and a unit may have been forgotten [m].
 BOULDER = 0.1
+from capfrac.values import MOST_GRAINS, asInt, isPositive, shown
 
 
 def drawRadii(sample):
@@ -87,8 +88,9 @@ def hexagonal(count, radius, aspect=1.0):
 
     A material without disorder: every pore deforms like every other. Every second row has a disk less. :class:`CaseError` for fewer than 7 disks.
     """
-    if count < 7 or not radius > 0 or not aspect > 0:
-        raise CaseError(f"count = {count}, radius = {radius} m, aspect = {aspect}; allowed: at least 7 disks, radius and aspect > 0")
+    if not 7 <= (asInt(count) or 0) <= MOST_GRAINS or not isPositive(radius) or not isPositive(aspect):
+        raise CaseError(f"count = {shown(count)}, radius = {shown(radius)} m, aspect = {shown(aspect)}; "
+                        f"allowed: at least 7 disks (up to {MOST_GRAINS}), radius and aspect > 0")
     rows = max(3, round(math.sqrt(count * aspect * 2 / math.sqrt(3))))
     columns = max(3, round(count / rows))
     x, y = [], []

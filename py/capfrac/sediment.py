@@ -18,6 +18,7 @@ import numpy as np
 
 from capfrac.errors import CaseError, SampleError, SceneError
 from capfrac.packing import checkOverlaps, drawRadii, placeGrains, readPacking
+from capfrac.values import LARGEST_SEED, MOST_GRAINS, isNotNegative, isPositive, shown
 
 #: Damping (YADE's local, non-viscous damping) while grains settle and while they are brought to rest [-].
 SETTLING_DAMPING, RESTING_DAMPING = 0.3, 0.7
@@ -47,25 +48,48 @@ class Sediment:
     def __post_init__(self):
         if self.grading is not None:
             self.rMin, self.rMax = self.grading.rMin, self.grading.rMax
-        if self.rMax is None and isinstance(self.rMin, (int, float)):
+        if self.rMax is None and isPositive(self.rMin):
             self.rMax = 5 / 3 * self.rMin
         if self.shearStiffness is None:
             self.shearStiffness = self.normalStiffness
-        positive = ["grainCount", "rMin", "rMax", "density", "normalStiffness", "aspect"]
-        for field in fields(self):
-            if field.name == "grading":
-                continue
-            value = getattr(self, field.name)
-            good = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-            if not good or value < 0 or (field.name in positive and value == 0):
-                allowed = "a finite number > 0" if field.name in positive else "a finite number >= 0"
-                raise CaseError(f"{field.name} = {value!r}, allowed: {allowed}")
-        if self.rMax < self.rMin:
-            raise CaseError(f"rMax = {self.rMax} m, allowed: >= rMin = {self.rMin} m")
-        for name in ("grainCount", "seed"):
-            if int(getattr(self, name)) != getattr(self, name):
-                raise CaseError(f"{name} = {getattr(self, name)}, allowed: whole numbers")
+        values = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "grading"}
+        if self.rMax is None:
+            del values["rMax"]  # it follows from rMin, which is amiss
+        problems = [problem for name, value in values.items() for problem in _amiss(name, value)]
+        if not problems:
+            problems = list(self._amissTogether())
+        if problems:
+            raise CaseError(*problems)
+        for name in _MOST:
             setattr(self, name, int(getattr(self, name)))
+
+    def _amissTogether(self):
+        if self.rMax < self.rMin:
+            yield f"rMax = {self.rMax} m, allowed: >= rMin = {self.rMin} m"
+        try:
+            masses = [self.density * math.pi * radius**2 for radius in (self.rMin, self.rMax)]
+            steps = [math.sqrt(mass / self.normalStiffness) for mass in masses]
+        except OverflowError:
+            steps = [math.inf]
+        if not all(map(isPositive, steps)):
+            yield (f"rMin = {self.rMin} m, rMax = {self.rMax} m, density = {self.density} kg/m^3, normalStiffness = "
+                   f"{self.normalStiffness} N/m: no mass or period that numbers hold; allowed: values of grains")
+
+
+#: Upper ends of what is counted.
+_MOST = {"grainCount": MOST_GRAINS, "seed": LARGEST_SEED}
+#: What may be zero.
+_MAY_BE_ZERO = ("seed", "shearStiffness", "friction", "wallFriction")
+
+
+def _amiss(name, value):
+    """What is wrong with one value of a :class:`Sediment`."""
+    if not (isNotNegative(value) if name in _MAY_BE_ZERO else isPositive(value)):
+        yield f"{name} = {shown(value)}, allowed: a finite number >{'=' if name in _MAY_BE_ZERO else ''} 0"
+    elif name in _MOST and int(value) != value:
+        yield f"{name} = {shown(value)}, allowed: whole numbers"
+    elif name in _MOST and value > _MOST[name]:
+        yield f"{name} = {shown(value)}, allowed: up to {_MOST[name]}"
 
 
 def changed(sample, **values):
@@ -272,8 +296,8 @@ def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxStep
     from yade import O, utils
 
     for name, value in (("stressV", stressV), ("stressH", stressH)):
-        if not (math.isfinite(value) and value > 0):
-            raise CaseError(f"{name} = {value} Pa, allowed: > 0")
+        if not isPositive(value):
+            raise CaseError(f"{name} = {shown(value)} Pa, allowed: > 0")
         overlap = value * 2 * sample.rMax / sample.normalStiffness
         if overlap > 0.1 * sample.rMin:
             limit = 0.05 * sample.normalStiffness * sample.rMin / sample.rMax
@@ -323,8 +347,8 @@ def bond(capillaryStrength=0.0, tensileStrength=0.0, shearStrength=0.0):
     from yade import O
 
     for name, value in (("capillaryStrength", capillaryStrength), ("tensileStrength", tensileStrength), ("shearStrength", shearStrength)):
-        if not (math.isfinite(value) and value >= 0):
-            raise CaseError(f"{name} = {value}, allowed: >= 0")
+        if not isNotNegative(value):
+            raise CaseError(f"{name} = {shown(value)}, allowed: >= 0")
     for material in {id(body.material): body.material for body in grainBodies()}.values():
         material.capillaryStrength = capillaryStrength
         material.tensileStrength = tensileStrength

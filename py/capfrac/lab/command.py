@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from capfrac import keys, namedfiles
+from capfrac import keys, namedfiles, tomlfiles
 from capfrac.errors import CaseError
 from capfrac.lab import parameters, reports
 from capfrac.lab.run import LabRun
@@ -93,11 +93,11 @@ def main(arguments):
     raw, base = {}, "."
     if arguments.file:
         try:
-            raw, base = keys.readToml(Path(arguments.file)), Path(arguments.file).parent
+            raw, base = tomlfiles.readToml(Path(arguments.file)), Path(arguments.file).parent
         except OSError as problem:
             raise CaseError(f"the file '{arguments.file}' cannot be read ({problem.strerror})") from None
     for text in arguments.set:
-        keys.override(raw, text)
+        tomlfiles.override(raw, text)
     values = parameters.resolve(test, raw, arguments.file or "arguments")
     folder = arguments.output or f"runs/lab-{test}"
     try:

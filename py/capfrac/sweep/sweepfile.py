@@ -30,7 +30,7 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-from capfrac import keys, namedfiles
+from capfrac import keys, namedfiles, tomlfiles
 from capfrac.case import KEYS, readCase, shippedCases
 from capfrac.casepacking import checkPacking
 from capfrac.errors import CaseError
@@ -97,7 +97,7 @@ def readSweep(nameOrPath, overrides=()):
     """
     path = shippedSweeps().get(str(nameOrPath), Path(nameOrPath))
     try:
-        raw = keys.readToml(path)
+        raw = tomlfiles.readToml(path)
     except OSError as problem:
         raise CaseError(f"the sweep '{nameOrPath}' cannot be read ({problem.strerror}); shipped sweeps: {', '.join(shippedSweeps())}") from None
     return resolveSweep(raw, path.stem, path.resolve().parent, str(path), overrides)
@@ -162,7 +162,7 @@ def _flat(table, section, source, prefix=""):
 
 def _override(text):
     raw = {}
-    keys.override(raw, text)
+    tomlfiles.override(raw, text)
     return {f"{section}.{key}": value for section, entries in raw.items() for key, value in entries.items()}
 
 
@@ -240,10 +240,10 @@ def _numbers(base, given, source):
     path = shippedCases().get(base, Path(base))
     if not path.is_file():
         readCase(base)  # says what is wrong
-    raw = keys.readToml(path)
+    raw = tomlfiles.readToml(path)
     for key, value in given.items():
-        keys.override(raw, f"{key}={_toml(value)}")
-    case = keys.resolve(raw, KEYS, source)
+        tomlfiles.override(raw, f"{key}={_toml(value)}")
+    case, _, _ = keys.check(raw, KEYS)
     return {f"{section}.{key}": value for section, entries in case.items() for key, value in entries.items()
             if isinstance(value, (int, float)) and not isinstance(value, bool)}
 

@@ -1,0 +1,57 @@
+"""Values as users give them: numbers that can be used, and how messages show what cannot."""
+
+import math
+import numbers
+
+#: Most grains of a sample [-]: more would settle for weeks.
+MOST_GRAINS = 1_000_000
+#: Largest seed [-]: the largest whole number of a TOML file.
+LARGEST_SEED = 2**63 - 1
+#: Values longer than some of these are shortened in messages [characters].
+_SHOWN = 60
+
+
+def asFloat(value):
+    """``value`` as a finite float; None where it is none: no number, true or false, infinite, or beyond floats."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number + 0.0 if math.isfinite(number) else None  # and -0.0 is 0.0
+
+
+def isPositive(value):
+    """Whether ``value`` is a finite number > 0."""
+    return (asFloat(value) or 0.0) > 0
+
+
+def isNotNegative(value):
+    """Whether ``value`` is a finite number >= 0."""
+    number = asFloat(value)
+    return number is not None and number >= 0
+
+
+def asInt(value):
+    """``value`` as an int; None where it is no whole number, or true or false. 3.0 is none."""
+    return None if isinstance(value, bool) or not isinstance(value, numbers.Integral) else int(value)
+
+
+def shown(value):
+    """``value`` as messages show it: long ones shortened, whole numbers of any size.
+
+    (Python itself writes none of more than 4300 digits.)
+    """
+    value = value.tolist() if hasattr(value, "tolist") else value  # numpy's numbers and arrays
+    if isinstance(value, int) and value.bit_length() > 3 * _SHOWN:
+        return f"a whole number of about {int(value.bit_length() * math.log10(2)) + 1} digits"
+    if isinstance(value, (list, tuple)) and value:
+        few = ", ".join(map(shown, value[:100]))
+        text = f"[{few}]" if isinstance(value, list) else f"({few})"
+    else:
+        try:
+            text = repr(value)
+        except ValueError:  # a table with such a number
+            text = f"a {type(value).__name__}"
+    return text if len(text) <= 4 * _SHOWN else f"{text[:2 * _SHOWN]} … {text[-_SHOWN:]}"
