@@ -13,6 +13,7 @@ from capfrac import casechecks, keys, tomlfiles
 from capfrac.casechecks import MAX_SIZE_RATIO  # noqa: F401 (a limit of cases)
 from capfrac.errors import CaseError
 from capfrac.keys import REQUIRED, Key, notNegative, positive
+from capfrac.samplechecks import LEAST_GRAINS
 from capfrac.values import LARGEST_SEED, MOST_GRAINS, shown
 
 #: What a resolved case says beside its keys: name, kind, what is allowed.
@@ -24,7 +25,8 @@ KEYS = (
     Key("case", "title", str, "-", "", "Title of pictures and reports."),
     Key("case", "description", str, "-", "", "What the case is, where it comes from."),
     Key("case", "assumptions", list, "-", (), "Texts: each assumption that is not read from data, one a line; kept in the summary."),
-    Key("grains", "count", int, "-", 300, "Number of grains to generate.", low=1, high=MOST_GRAINS),
+    Key("grains", "count", int, "-", 300, "Number of grains to generate; a pore lies between three.",
+        low=LEAST_GRAINS, high=MOST_GRAINS),
     positive("grains", "rMin", "m", None, "Smallest grain radius; with a packing, that of the file.",
              demanded="no grains.packing"),
     Key("grains", "rMax", float, "m", None, "Largest grain radius, radii are uniform in between; default 2 rMin.", low=0, openLow=True),

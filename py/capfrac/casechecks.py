@@ -4,6 +4,9 @@ Each asks only for what it compares: a key that was refused by itself ends the f
 (see :func:`capfrac.keys.check`).
 """
 
+import math
+
+from capfrac import samplechecks
 from capfrac.values import asFloat, isNotNegative, shown
 
 #: Largest ratio of grain radii that a case may have [-]: entry pressures and domains are meant for narrow
@@ -19,6 +22,30 @@ def _radii(case):
         yield f"grains.rMax = {rMax} m, allowed: >= grains.rMin = {rMin} m"
     elif rMax > MAX_SIZE_RATIO * rMin:
         yield f"grains.rMax / grains.rMin = {rMax / rMin:g}, allowed: up to {MAX_SIZE_RATIO} (narrow distributions)"
+
+
+def _aspect(case):
+    grains = case["grains"]
+    if not grains["packing"] and grains["rMin"] is not None:
+        low, high = grains["rMin"], grains["rMax"] or 2 * grains["rMin"]
+        # Radii are uniform: the mean of their squares.
+        area = grains["count"] * math.pi * (low**2 + low * high + high**2) / 3 / samplechecks.SETTLED
+        yield from samplechecks.aspectAmiss(grains["aspect"], area, 0.5 * (low + high), high, "grains.aspect")
+
+
+def _overlaps(case):
+    grains = case["grains"]
+    if not grains["packing"] and grains["rMin"] is not None:
+        for name in ("vertical", "horizontal"):
+            yield from samplechecks.overlapAmiss(f"stress.{name}", case["stress"][name], grains["rMin"],
+                                                 grains["rMax"] or 2 * grains["rMin"], grains["normalStiffness"])
+
+
+def _stresses(case):
+    stress = case["stress"]
+    if not case["grains"]["packing"]:
+        names = "stress.vertical", "stress.horizontal"
+        yield from samplechecks.stressesAmiss(stress["vertical"], stress["horizontal"], names)
 
 
 def _inlet(case):
@@ -160,6 +187,6 @@ def _numbersOf(values, count):
     return None if None in found else found
 
 
-CHECKS = (_radii, _inlet, _inletWalls, _inletPoints, _rampEnd, _levels, _runEnds, _gasTable, _gasTableSuffices,
-          _gasDatum, _program, _control, _supplied, _entryLaw, _snapOff, _solvedWater, _gravity, _pressures,
-          _assumptions)
+CHECKS = (_radii, _aspect, _overlaps, _stresses, _inlet, _inletWalls, _inletPoints, _rampEnd, _levels, _runEnds,
+          _gasTable, _gasTableSuffices, _gasDatum, _program, _control, _supplied, _entryLaw, _snapOff, _solvedWater,
+          _gravity, _pressures, _assumptions)

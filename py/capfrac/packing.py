@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 
+from capfrac import samplechecks
 from capfrac.errors import CaseError
 from capfrac.tables import Column, readTable
-
+from capfrac.values import MOST_GRAINS, asInt, isPositive, shown
 
 #: Radius from which on a grain is a boulder, and a unit may have been forgotten [m].
 BOULDER = 0.1
-from capfrac.values import MOST_GRAINS, asInt, isPositive, shown
 
 
 def drawRadii(sample):
@@ -24,11 +24,14 @@ def placeGrains(sample, radii):
     """Loose random positions for grains about to settle.
 
     The grains lie on a grid wide enough that none touch, each moved at random within its square, rows filled from
-    the bottom. Returns ``(x, y, width, height)`` [m] with the box's lower left corner in the origin.
+    the bottom. Returns ``(x, y, width, height)`` [m] with the box's lower left corner in the origin. Raises
+    :class:`CaseError` where so many grains cannot have the shape that the sample asks for.
     """
-    solid = math.pi * float(np.sum(radii**2))
-    # 0.84: share of solids in a settled pack of disks; only the shape of the box depends on it.
-    width = max(math.sqrt(solid / 0.84 / sample.aspect), 4 * sample.rMax)
+    area = math.pi * float(np.sum(radii**2)) / samplechecks.SETTLED  # only the shape of the box depends on it
+    problems = list(samplechecks.aspectAmiss(sample.aspect, area, float(np.mean(radii)), float(np.max(radii))))
+    if problems:
+        raise CaseError(*problems)
+    width = max(math.sqrt(area / sample.aspect), 4 * sample.rMax)
     pitch = 2.3 * sample.rMax
     columns = max(1, int(width / pitch))
     pitchX = width / columns

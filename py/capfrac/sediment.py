@@ -17,6 +17,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from capfrac.errors import CaseError, SampleError, SceneError
+from capfrac import samplechecks
 from capfrac.packing import checkOverlaps, drawRadii, placeGrains, readPacking
 from capfrac.values import LARGEST_SEED, MOST_GRAINS, isNotNegative, isPositive, shown
 
@@ -206,25 +207,42 @@ def settle(sample, unbalanced=0.01, maxSteps=400_000, progress=None):
     overlap by that share of their radius whatever the grain size. A pack of 1 um and one of 1 mm with the same
     seed then have the same shape, as they should: settling without cohesion knows no length but the grain's.
     Ends when the mean resultant force on the grains is below ``unbalanced`` times the mean contact force.
-    Raises :class:`SampleError` when ``maxSteps`` do not suffice.
+    Raises :class:`SampleError` when ``maxSteps`` do not suffice, :class:`SceneError` when the scene holds fewer than
+    three grains.
     """
     from yade import O, utils
 
-    startSettling(sample)
     newton, grains, walls = engine("newton"), grainBodies(), wallBodies()
-    runUntil(lambda: O.iter > 2000 and utils.unbalancedForce() < unbalanced and _touching(len(grains)), maxSteps, 1000,
-              f"the grains did not come to rest: unbalanced force {{unbalanced}} after {maxSteps} steps, wanted {unbalanced}",
-              progress, "settling")
+    for problem in samplechecks.countAmiss(len(grains)):
+        raise SceneError(f"the scene holds {problem}")
+    startSettling(sample)
+
+    def complaint():
+        flying = _flying(grains)
+        if flying:
+            return (f"the grains did not come to rest: {flying} of {len(grains)} touch nothing after {maxSteps} steps, "
+                    "allowed: none")
+        return (f"the grains did not come to rest: unbalanced force {utils.unbalancedForce():.2g} after {maxSteps} "
+                f"steps, wanted {unbalanced}")
+
+    runUntil(lambda: O.iter > 2000 and utils.unbalancedForce() < unbalanced and not _flying(grains), maxSteps, 1000,
+             complaint, progress, "settling")
     newton.gravity = (0, 0, 0)
     top = max(body.state.pos[1] + body.shape.radius for body in grains)
     walls["top"].state.pos = (0, top, 0)
 
 
-def _touching(nGrains):
+def _flying(grains):
+    """Grains that touch nothing; none where there are more contacts than grains.
+
+    In free fall the unbalanced force is undefined, not small, so contacts are asked for, too.
+    """
     from yade import O
 
-    # At rest in free fall the unbalanced force is undefined, not small: ask for contacts, too.
-    return O.interactions.countReal() > nGrains
+    if O.interactions.countReal() > len(grains):
+        return 0
+    touching = {i for contact in O.interactions if contact.isReal for i in (contact.id1, contact.id2)}
+    return sum(body.id not in touching for body in grains)
 
 
 def advance(steps):
@@ -290,37 +308,43 @@ def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxStep
 
     The bottom stays, the other walls move. Done when every wall is within ``tolerance`` (relative) of its target and
     the grains are at rest (``unbalanced``, as in :func:`settle`). Raises :class:`SampleError` with the stresses that
-    were reached when ``maxSteps`` do not suffice, :class:`CaseError` when the targets are out of range: a stress that
+    were reached when ``maxSteps`` do not suffice, or as soon as the grains flow (see :mod:`capfrac.samplechecks`), and
+    :class:`CaseError` when the targets are out of range: a stress that
     would press contacts of the largest grains in by more than a tenth of the smallest radius is beyond the model.
     """
     from yade import O, utils
 
-    for name, value in (("stressV", stressV), ("stressH", stressH)):
-        if not isPositive(value):
-            raise CaseError(f"{name} = {shown(value)} Pa, allowed: > 0")
-        overlap = value * 2 * sample.rMax / sample.normalStiffness
-        if overlap > 0.1 * sample.rMin:
-            limit = 0.05 * sample.normalStiffness * sample.rMin / sample.rMax
-            raise CaseError(f"{name} = {value:g} Pa is out of reach: contacts of stiffness {sample.normalStiffness:g} N/m would "
-                            f"overlap by {overlap / sample.rMin:.2g} of the smallest radius; allowed: up to {limit:g} Pa, "
-                            "or a larger normalStiffness")
+    problems = list(_stressesAmiss(sample, stressV, stressH))
+    if problems:
+        raise CaseError(*problems)
     newton, servo = engine("newton"), engine("servo")
     newton.damping, newton.gravity = RESTING_DAMPING, (0, 0, 0)
     servo.stressX, servo.stressY = stressH, stressV
     servo.maxVelocity = 5e-4 * sample.rMin / O.dt  # a wall overtakes no grain: they answer within some ten steps
     servo.gain = 0.3
     servo.dead = False
-    try:
-        runUntil(lambda: servo.error < tolerance and utils.unbalancedForce() < unbalanced, maxSteps, 1000,
-                  "UNREACHED", progress, "compressing")
-    except SampleError as problem:
-        if "UNREACHED" not in str(problem):
-            raise
+    flow = samplechecks.Flow(boxSize(), 2 * float(np.mean([body.shape.radius for body in grainBodies()])))
+
+    def done():
+        flow.check(boxSize(), stressV, stressH, sample.friction)
+        return servo.error < tolerance and utils.unbalancedForce() < unbalanced
+
+    def complaint():
         left, right, bottom, top = servo.stress
-        raise SampleError(
-            f"the walls did not come to sigma_V = {stressV:g} Pa, sigma_H = {stressH:g} Pa within {maxSteps} steps: "
-            f"left {left:.4g}, right {right:.4g}, bottom {bottom:.4g}, top {top:.4g} Pa, unbalanced force "
-            f"{utils.unbalancedForce():.2g} (allowed {unbalanced:g})") from None
+        return (f"the walls did not come to sigma_V = {stressV:g} Pa, sigma_H = {stressH:g} Pa within {maxSteps} "
+                f"steps: left {left:.4g}, right {right:.4g}, bottom {bottom:.4g}, top {top:.4g} Pa, unbalanced force "
+                f"{utils.unbalancedForce():.2g} (allowed {unbalanced:g})")
+
+    runUntil(done, maxSteps, 1000, complaint, progress, "compressing")
+
+
+def _stressesAmiss(sample, stressV, stressH):
+    """What is wrong with stresses [Pa] that the walls are to bear: texts."""
+    for name, value in (("stressV", stressV), ("stressH", stressH)):
+        if not isPositive(value):
+            yield f"{name} = {shown(value)} Pa, allowed: > 0"
+        else:
+            yield from samplechecks.overlapAmiss(name, value, sample.rMin, sample.rMax, sample.normalStiffness)
 
 
 def relax(unbalanced=1e-4, maxSteps=400_000, progress=None):
@@ -359,15 +383,26 @@ def bond(capillaryStrength=0.0, tensileStrength=0.0, shearStrength=0.0):
 def makeSample(sample, stressV, stressH, packing=None, progress=None):
     """Grains at rest in a box under the requested stresses, from nothing or from a packing (see :func:`readPacking`).
 
-    A packing is put into the smallest box that holds it and goes straight to :func:`compress`.
+    A packing is put into the smallest box that holds it and goes straight to :func:`compress`. Raises
+    :class:`CaseError` for what cannot be a sample, :class:`SampleError` for what becomes none (see
+    :mod:`capfrac.samplechecks`).
     """
+    problems = list(_stressesAmiss(sample, stressV, stressH))
+    if packing is not None:
+        checkOverlaps(*packing)
+    elif isPositive(stressV) and isPositive(stressH):
+        problems += samplechecks.stressesAmiss(stressV, stressH)
+    count = sample.grainCount if packing is None else len(packing[0])
+    problems += [f"the sample has {text}" for text in samplechecks.countAmiss(count)]
+    if problems:
+        raise CaseError(*problems)
     if packing is None:
         placeSample(sample)
         settle(sample, progress=progress)
     else:
         x, y, radii = packing
-        checkOverlaps(x, y, radii)
         box = (np.min(x - radii), np.max(x + radii), np.min(y - radii), np.max(y + radii))
         buildScene(sample, x, y, radii, tuple(map(float, box)))
     compress(sample, stressV, stressH, progress=progress)
     relax(progress=progress)
+    samplechecks.checkCarried()

@@ -71,7 +71,7 @@ BAD = [
     (("sweep", "colour"), "red", "unknown key sweep.colour"),
     (("sweep", "figures"), "pie", "sweep.figures = 'pie', allowed: '', 'regime_map', 'hydrate_ridge_depth'"),
     (("set", "grains", "cout"), 3, "'grains.cout' is no key of a case; did you mean 'grains.count'"),
-    (("set", "grains", "count"), -3, "point rMin1e-06_chi0_seed1: .*grains.count = -3, allowed: a whole number >= 1"),
+    (("set", "grains", "count"), -3, "point rMin1e-06_chi0_seed1: .*grains.count = -3, allowed: a whole number >= 3"),
     (("set", "grains", "rMin"), 1.0, r"'grains.rMin' is an axis of the grid and in \[set\]"),
     (("units", "rMaen"), "m", "units.rMaen = 'm', allowed: a text for the name of a rule or an axis"),
     (("rules", "rMean"), "grains.rMin +", r"rules.rMean = 'grains.rMin \+' is not a formula"),

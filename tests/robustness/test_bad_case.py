@@ -28,7 +28,7 @@ BAD = [
     (dict(grains__rmin=1), r"unknown key grains.rmin; did you mean 'rMin'\?"),
     (dict(ramp__quark=1), "unknown key ramp.quark; known: start, increment, max"),
     # wrong type
-    (dict(grains__count=40.0), "grains.count = 40.0, allowed: a whole number >= 1"),
+    (dict(grains__count=40.0), "grains.count = 40.0, allowed: a whole number >= 3"),
     (dict(grains__count="40"), "grains.count = '40'"),
     (dict(grains__count=True), "grains.count = True"),
     (dict(grains__rMin="1 mm"), r"grains.rMin = '1 mm', allowed: a number > 0 \[m\]"),
