@@ -102,6 +102,76 @@ def test_mistakesAreRefusedByName(path, value, message):
         resolveSweep(changed(path, value), "bad")
 
 
+def test_everyProblemIsToldAtOnce():
+    raw = {"sweep": {"case": "figure16", "colour": "red"}, "zebra": {}, "set": {"grains": {"cuont": 3, "seed": -1}},
+           "units": {"depth": 3, "rMaen": "m"}, "rules": {"rMean": "grains.rMin +", "ramp.strat": "1"},
+           "grid": [{"depth": [1, 1], "k0": [float("inf")], "cohesion": {"chi": 10}}, {"depth": [1]}]}
+    with pytest.raises(CaseError) as caught:
+        resolveSweep(raw, "bad", overrides=["grains.count", "case.title=x"])
+    problems = caught.value.problems
+    culprits = ["[zebra]", "sweep.colour", "'grains.count' is not of the form", "case.title = x: not a TOML value",
+                "rules.rMean = 'grains.rMin +' is not a formula", "depth = [1, 1] has a value twice",
+                "k0 holds inf, allowed: finite", "cohesion.chi = 10, allowed: a list", "grid 2 has the axes depth",
+                "'grains.cuont' is no key", "'ramp.strat' is no key", "units.depth = 3"]
+    for culprit in culprits:
+        assert [culprit in problem for problem in problems].count(True) == 1, culprit
+    assert len(problems) == len(culprits) and str(caught.value).startswith("sweep: 12 problems\n  - unknown section")
+
+
+def test_problemsOfPointsAreToldOnceForAll():
+    raw = changed(("set", "ramp"), {"minLevelSteps": 0, "increment": -1})
+    raw["set"]["grains.cuont"] = 3
+    raw["rules"]["ramp"]["max"] = "1.0"
+    with pytest.raises(CaseError) as caught:
+        resolveSweep(raw, "bad")
+    problems = caught.value.problems
+    # Twelve points: the first two go wrong in all of them, the end of the ramp in a way of its own for each radius.
+    assert len(problems) == 1 + 2 + 3 and problems[0].startswith("'grains.cuont' is no key of a case")
+    for name, count in (("ramp.minLevelSteps = 0", 11), ("ramp.increment = -1", 11)):
+        told, = [text for text in problems if f": {name}" in text]
+        assert told.startswith("point rMin1e-06_chi0_seed1: ") and told.endswith(f"(and {count} more points)")
+    assert sum("ramp.max = 1.0 Pa" in text and text.endswith("(and 3 more points)") for text in problems) == 3
+
+
+def test_problemsOfPointsHaveAnEnd():
+    raw = {"sweep": {"case": "figure16"}, "grid": [{"cohesion": {"chi": [-1.0 - k for k in range(50)]}}]}
+    with pytest.raises(CaseError) as caught:
+        resolveSweep(raw, "bad")
+    assert len(caught.value.problems) == 21 and caught.value.problems[-1] == "and 30 more problems of points"
+
+
+#: Of more digits than Python writes.
+ENDLESS = 10**5000
+
+
+@pytest.mark.parametrize("number, what", enumerate(["grains.seed", "grains.count", "ramp.maxLevelSteps", "inlet.pores"]))
+def test_numbersThatNothingHolds(number, what):
+    for value in (3_000_000_000 if what != "grains.seed" else 2**63, 10**400, ENDLESS, float("inf"), float("nan")):
+        for raw in ({"sweep": {"case": "figure15"}, "grid": [{what: [value]}]},
+                    {"sweep": {"case": "figure15"}, "set": {what: value}, "grid": [{"cohesion.chi": [0.0]}]},
+                    {"sweep": {"case": "figure15"}, "rules": {what: value}, "grid": [{"cohesion.chi": [0.0]}]}):
+            with pytest.raises(CaseError) as caught:
+                resolveSweep(raw, "bad")
+            assert len(str(caught.value)) < 1000
+
+
+@pytest.mark.parametrize("text", ["10 ** 400", "9 ** 9 ** 9 ** 9", "1e400", "1" * 5000, "0x" + "f" * 5000,
+                                  "+".join(["1"] * 5000), "(" * 500 + "1" + ")" * 500, "exp(1000)", "log(0 - 1)"])
+def test_formulasThatHaveNoEnd(text):
+    with pytest.raises(CaseError) as caught:
+        Formula(text, "rule").value({})
+    assert str(caught.value).startswith("rule = ")
+
+
+def test_datesAreNoValues():
+    import datetime
+
+    raw = {"sweep": {"case": "figure15"}, "set": {"grains.count": datetime.date(2024, 1, 1)},
+           "grid": [{"cohesion.chi": [0.0]}]}
+    with pytest.raises(CaseError, match="grains.count = '2024-01-01', allowed: a whole number"):
+        resolveSweep(raw, "bad")
+
+
 def test_gridsMustHaveTheSameAxes():
     raw = copy.deepcopy(GOOD)
     raw["grid"].append({"grains": {"rMin": [1e-3]}})
@@ -156,7 +226,7 @@ def test_rulesOfKeysThatAreWholeNumbers():
     assert pores == {0.2: 1, 0.4: 2, 0.6: 3, 0.8: 4}
     assert all(isinstance(point.values["inlet.pores"], int) for point in sweep.points)
     raw["grid"] = [{"share": [0.5]}]
-    message = "point share0.5: shares: rules.inlet.pores = 'share / 0.2' gives 2.5, allowed: a whole number"
+    message = "point share0.5: rules.inlet.pores = 'share / 0.2' gives 2.5, allowed: a whole number"
     with pytest.raises(CaseError, match=message):
         resolveSweep(raw, "shares", source="shares")
 

@@ -9,6 +9,7 @@ import math
 import operator
 
 from capfrac.errors import CaseError
+from capfrac.values import asFloat, shown
 
 FUNCTIONS = {"min": min, "max": max, "sqrt": math.sqrt, "exp": math.exp, "log": math.log, "log10": math.log10, "round": round}
 _BINARY = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow}
@@ -20,14 +21,17 @@ class Formula:
 
     def __init__(self, text, source="formula"):
         self.text, self.source = text, source
-        if not isinstance(text, (str, int, float)) or isinstance(text, bool):
-            raise CaseError(f"{source} = {text!r}, allowed: a formula (text) or a number")
+        if not isinstance(text, str) and asFloat(text) is None:
+            raise CaseError(f"{source} = {shown(text)}, allowed: a formula (text) or a number")
+        self.names = set()
         try:
             self._tree = ast.parse(str(text).strip(), mode="eval").body
+            self._check(self._tree)
+        except CaseError:
+            raise
         except (SyntaxError, ValueError, RecursionError, MemoryError):
-            raise CaseError(f"{source} = '{text}' is not a formula; allowed: numbers, names, + - * / **, brackets, {', '.join(FUNCTIONS)}") from None
-        self.names = set()
-        self._check(self._tree)
+            raise CaseError(f"{source} = '{str(text)[:200]}' is not a formula; allowed: numbers, names, + - * / **, "
+                            f"brackets, {', '.join(FUNCTIONS)}") from None
 
     def _check(self, node):
         """Refuse what is not arithmetic, and collect the names."""
@@ -50,8 +54,8 @@ class Formula:
         if missing:
             raise CaseError(f"{self.source} = '{self.text}': '{missing[0]}' is not known; known: {', '.join(sorted(values))}")
         for name in self.names:
-            if isinstance(values[name], bool) or not isinstance(values[name], (int, float)):
-                raise CaseError(f"{self.source} = '{self.text}': {name} = {values[name]!r} is not a number")
+            if asFloat(values[name]) is None:
+                raise CaseError(f"{self.source} = '{self.text}': {name} = {shown(values[name])} is not a number")
         try:
             found = self._evaluate(self._tree, values)
         except (ArithmeticError, ValueError, TypeError) as problem:
@@ -73,14 +77,14 @@ class Formula:
     def _evaluate(self, node, values):
         name = _nameOf(node)
         if name is not None:
-            return values[name]
+            return float(values[name])  # powers of whole numbers may have any number of digits
         if isinstance(node, ast.BinOp):
             return _BINARY[type(node.op)](self._evaluate(node.left, values), self._evaluate(node.right, values))
         if isinstance(node, ast.UnaryOp):
             return _UNARY[type(node.op)](self._evaluate(node.operand, values))
         if isinstance(node, ast.Call):
             return FUNCTIONS[node.func.id](*(self._evaluate(argument, values) for argument in node.args))
-        return node.value
+        return float(node.value)
 
 
 def _nameOf(node):
