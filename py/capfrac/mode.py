@@ -71,12 +71,14 @@ def measureMode(gas):
     )
 
 
-def asText(mode):
-    """The measures as lines for people."""
+def asText(mode, upperBounds=()):
+    """The measures as lines for people; those named in ``upperBounds`` are marked."""
     numbers = asdict(mode)
     lines = [f"mode: {numbers.pop('mode')}"]
     for name, value in numbers.items():
-        lines.append(f"  {name}: {'not reached' if value is None else format(value, '.4g') if isinstance(value, float) else value}")
+        bound = " or lower" if name in upperBounds else ""
+        text = "not reached" if value is None else format(value, ".4g") if isinstance(value, float) else value
+        lines.append(f"  {name}: {text}{bound}")
     return "\n".join(lines)
 
 

@@ -30,6 +30,8 @@ RESULTS = {
     "entryPressureMin [Pa]": lambda s: s["sample"]["throatEntryPressureMin [Pa]"],
     "entryPressureMax [Pa]": lambda s: s["sample"]["throatEntryPressureMax [Pa]"],
     "iterations [-]": lambda s: s["results"]["iterations"],
+    "upperBounds": lambda s: " ".join(s["results"].get("upperBounds", ())),
+    "warnings": lambda s: "; ".join(s.get("warnings", ())),
     "cpuSeconds [s]": lambda s: s["cpuSeconds"],
     "capfrac": lambda s: s["versions"]["capfrac"],
     "yade": lambda s: s["versions"]["yade"],
