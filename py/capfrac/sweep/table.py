@@ -82,7 +82,7 @@ def read(path, needed=()):
     Raises :class:`CaseError` for a file that is no such table, or one that lacks a ``needed`` column.
     """
     try:
-        with open(path, newline="", encoding="utf-8") as stream:
+        with open(path, newline="", encoding="utf-8-sig") as stream:  # a spreadsheet may have saved it
             rows = list(csv.DictReader(stream))
     except (OSError, UnicodeDecodeError) as problem:
         raise CaseError(f"the table {path} cannot be read: {problem}") from None
