@@ -15,7 +15,7 @@ capfrac.load_engines()
 
 from yade import O
 
-from capfrac import injection, mode, sediment
+from capfrac import injection, mode, sediment, snapshot
 
 
 def main(grainCount=300, seed=1):
@@ -26,11 +26,12 @@ def main(grainCount=300, seed=1):
     sediment.relax()
 
     gas = injection.startInjection(start=100, increment=1, max=215, pores=3, interfacialTension=tension, checkInvariants=True)
+    start = snapshot.takeSnapshot(gas)
     while not gas.rampDone:
         O.run(500, True)
     levels = gas.levels()
     reached97 = next((p for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= 0.97), None)
-    measured = mode.measureMode(gas)
+    measured = mode.measureMode(gas, start)
     print(mode.asText(measured))
     print(f"97 % gas at {reached97} Pa")
     return measured, reached97

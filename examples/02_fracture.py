@@ -17,7 +17,7 @@ capfrac.load_engines()
 
 from yade import O
 
-from capfrac import injection, mode, sediment
+from capfrac import injection, mode, sediment, snapshot
 
 
 def main(grainCount=300, seed=1, inlets=(1, 3, 5)):
@@ -33,9 +33,10 @@ def main(grainCount=300, seed=1, inlets=(1, 3, 5)):
             O.reset()
             O.load(saved, quiet=True)
             gas = injection.startInjection(start=80e3, increment=1e3, max=250e3, pores=pores, interfacialTension=tension)
+            start = snapshot.takeSnapshot(gas)
             while gas.breakthroughIter < 0 and not gas.rampDone:
                 O.run(200, True)
-            results[pores] = mode.measureMode(gas)
+            results[pores] = mode.measureMode(gas, start)
             print(f"inlet of {pores} pores, {gas.inletWidth * 1e6:.0f} um wide")
             print(mode.asText(results[pores]))
     return results

@@ -93,9 +93,10 @@ KEYS = (
     positive("ramp", "max", "Pa", None, "Capillary pressure at which the ramp ends; with a rate or a reservoir, where "
              "given, at which the run ends.", demanded="supply.control = 'pressure' and no supply.program",
              usedWith="no supply.program"),
-    Key("ramp", "endAt", str, "-", None, "What ends the run: the ramp's end, or the gas at the outlet; default max, "
+    Key("ramp", "endAt", str, "-", None, "What ends the run: the ramp's end, the gas at the outlet, or the end of the "
+        "pressure level at which it came there, when the grains have answered; default max, "
         "but breakthrough with a rate and none of ramp.max, supply.maxMass, supply.maxTime.",
-        choices=("max", "breakthrough")),
+        choices=("max", "breakthrough", "rest")),
     positive("ramp", "maxExtension", "-", 0.3, "Growth of the box, relative to its width and height, at which the sample counts as come apart and the run ends."),
     positive("ramp", "unbalanced", "-", 1e-3, "Mean resultant force on the grains over the mean contact force, below which they are at rest."),
     Key("ramp", "minLevelSteps", int, "-", 100, "Time steps that a pressure level lasts at least.", low=1),

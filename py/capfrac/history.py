@@ -1,10 +1,32 @@
-"""The course of an injection in time, as a picture: pressure, volume, mass and saturation of the gas."""
+"""The course of an injection: its pressure levels to the very end of a run, and a picture in time of pressure, saturation and broken bonds."""
 
 import math
 
 import numpy as np
 
 from capfrac.figures import COLOURS, newFigure, saveFigure
+
+
+def levelsToTheEnd(gas, shot):
+    """The levels of a ``GasInvasionEngine``, a dict of lists as of ``gas.levels()`` with ``finished`` (bool) besides, up to the present state.
+
+    The level at which a run ended, because gas was through, time was over or the sample came apart, is not finished: its row, the last
+    one, is the state of the snapshot ``shot``, taken just now.
+    """
+    from yade import O
+
+    levels = gas.levels()
+    levels["finished"] = [True] * len(levels["pressure"])
+    if gas.rampDone:
+        return levels
+    moved = np.hypot(*shot.displacement.T) / shot.r
+    contact = float(np.abs(shot.normalForce).mean()) if len(shot.normalForce) else 0.0
+    resultant = float(np.mean([O.forces.f(int(i)).norm() for i in shot.ids]))
+    row = {"pressure": shot.gasPressure, "gasSaturation": shot.gasSaturation, "brokenBonds": len(shot.brokenBonds),
+           "displacement": float(np.max(moved[~shot.rattler], initial=0.0)), "displacementWithRattlers": float(moved.max()),
+           "unbalanced": resultant / contact if contact > 0 else math.inf if resultant > 0 else 0.0, "atRest": False, "iteration": shot.iteration,
+           "gasVolume": gas.volumes()["gas"], "finished": False}
+    return {name: values + [row[name]] for name, values in levels.items()}
 
 
 def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, waterPressure=0.0, title=None):

@@ -52,12 +52,12 @@ class Run:
         if self.folder.checkpoint.exists():
             self.report("taking up the run at its checkpoint")
             self._load()
+            self._forgetLaterSnapshots()
             self.start = snapshot.load(self.folder.sub("snapshots") / "start.npz")
             self.begun = True
             return
         nBonds = casescene.makeSample(self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}"))
         self.gas = casescene.startGas(self.case)
-        self.warnOfStart()
         throats = [p for p in self.gas.throats()["entryPressure"] if p > 0]
         bonded = sum(1 for i in O.interactions if i.isReal and not i.phys.cohesionBroken)
         self.folder.writeSummary(
@@ -70,25 +70,6 @@ class Run:
         self.start = snapshot.takeSnapshot(self.gas)
         self.picture("start")
         self.checkpoint()
-        self.begun = True
-
-    def warnOfStart(self):
-        """Say what can be known before the first step to make results empty."""
-        if self.gas.breakthroughIter >= 0:
-            self.warn("a pore of the inlet touches the outlet before any gas moves, so the breakthrough says nothing; "
-                      "choose a narrower inlet, one farther from the outlet, or a larger sample")
-        low, high = self.pressureRange()
-        outside = [p for p in self.case["output"]["pressures"] if not low <= p <= high]
-        if outside:
-            self.warn(f"output.pressures: no snapshot at {', '.join(map(exactText, outside))} Pa, the capillary "
-                      f"pressure goes from {exactText(low)} to {exactText(high)} Pa")
-
-    def pressureRange(self):
-        """Lowest and highest capillary pressure that the case prescribes [Pa]."""
-        start, end, program = self.case["ramp"]["start"], self.case["ramp"]["max"], self.case["supply"]["program"]
-        if program:
-            return min(start, *program), max(start, *program)
-        return start, math.inf if end is None else end
 
     def warn(self, text):
         """Say a warning, and keep it in the summary."""
@@ -106,6 +87,15 @@ class Run:
                                  "another version of capfrac or YADE; --restart discards the run") from None
         self.gas = sediment.engine("gas")
 
+    def _forgetLaterSnapshots(self):
+        """Those that were taken after the checkpoint will be taken again."""
+        from yade import O
+
+        later = [entry for entry in self.folder.summary["snapshots"] if entry.get("iteration", 0) > O.iter]
+        for entry in later:
+            (self.folder.sub("snapshots") / f"{entry['name']}.npz").unlink(missing_ok=True)
+        self.folder.writeSummary(snapshots=[entry for entry in self.folder.summary["snapshots"] if entry not in later])
+
     def picture(self, name):
         """Take a snapshot: state, picture and fields. Returns the snapshot."""
         shot = snapshot.takeSnapshot(self.gas, self.start)
@@ -114,7 +104,8 @@ class Run:
         if self.case["output"]["pictures"] in (("all", "end") if name == "end" else ("all",)):
             figures.drawSnapshot(shot, shots / f"{name}.png", title=None)
         fracture.takeStress(self.gas, shot).save(shots / f"{name}-stress.npz")
-        entry = {"name": name, "time [s]": shot.time, "capillaryPressure [Pa]": shot.gasPressure - shot.waterPressure, "gasSaturation": shot.gasSaturation}
+        entry = {"name": name, "time [s]": shot.time, "iteration": shot.iteration, "level": shot.level,
+                 "capillaryPressure [Pa]": shot.gasPressure - shot.waterPressure, "gasSaturation": shot.gasSaturation}
         entries = [e for e in self.folder.summary["snapshots"] if e["name"] != name] + [entry]
         if self.case["output"]["fields"]:
             fields = self.folder.sub("fields")
@@ -135,9 +126,14 @@ class Run:
         """
         with holdingInterrupts():
             self.folder.saveCheckpoint()
+            self.begun = True
             self._load()
         self.folder.writeLogs(self.gas)
-        self.folder.writeSummary(**self.cost(), mode=asdict(mode.measureMode(self.gas)))
+        self.folder.writeSummary(**self.cost(), **self.modes(snapshot.takeSnapshot(self.gas, self.start)))
+
+    def modes(self, now=None):
+        """The modes of the run for its summary, from what its folder holds and, while it is not finished, its state ``now``."""
+        return {name: found and asdict(found) for name, found in mode.modesOfRun(self.folder.path, now).items()}
 
     def cost(self):
         """Time and processor time of the run so far, all its parts together [s]."""
@@ -153,6 +149,8 @@ class Run:
         ramp = self.case["ramp"]
         if ramp["endAt"] == "breakthrough" and self.gas.breakthroughIter >= 0:
             return "gas reached the outlet"
+        if ramp["endAt"] == "rest" and any(entry["name"] == "rest" for entry in self.folder.summary["snapshots"]):
+            return "gas reached the outlet, and its level is finished"
         before = self.folder.summary["sample"]
         growth = max(sediment.boxSize()[0] / before["boxWidth [m]"], sediment.boxSize()[1] / before["boxHeight [m]"]) - 1
         if growth > ramp["maxExtension"]:
@@ -175,8 +173,31 @@ class Run:
 
     def stops(self):
         """Pressures at which snapshots are asked for, those on the way, ascending, each once [Pa]."""
-        low, high = self.pressureRange()
-        return sorted({float(p) for p in self.case["output"]["pressures"] if low <= p < high})
+        ramp = self.case["ramp"]
+        highest = math.inf if ramp["max"] is None else ramp["max"]
+        return sorted({p for p in self.case["output"]["pressures"] if ramp["start"] <= p < highest})
+
+    def advance(self, taken):
+        """Run to the next look at the run: less far where what a snapshot waits for may have come, so that it is of that very step."""
+        from yade import O
+
+        gas = self.gas
+        watched = [name for name, waiting in (
+            ("breakthroughIter", True), ("nEvents", "initiation" not in taken), ("level", "breakthrough" in taken and "rest" not in taken)) if waiting]
+        before = [getattr(gas, name) for name in watched]
+        for _ in range(CHUNK - O.iter % CHUNK):
+            O.step()
+            if [getattr(gas, name) for name in watched] != before:
+                return
+
+    def rests(self):
+        """Whether the level at which gas came through is finished: the grains have answered to it."""
+        from yade import O
+
+        through = next((entry for entry in self.folder.summary["snapshots"] if entry["name"] == "breakthrough"), None)
+        if through is None:
+            return False
+        return self.gas.level > through["level"] or self.gas.rampDone or O.iter >= through["iteration"] + self.gas.maxLevelSteps
 
     def loop(self, bar):
         """Run to the end, with snapshots on the way."""
@@ -190,7 +211,7 @@ class Run:
             gas = self.gas  # another one after each checkpoint
             if self.ramped:
                 gas.maxPressure = water + (stops[0] if stops else self.case["ramp"]["max"])
-            sediment.advance(CHUNK - O.iter % CHUNK)
+            self.advance(taken)
             bar(gas.gasPressure - water, gas.gasSaturation)
             if gas.nEvents > seen:
                 seen = gas.nEvents
@@ -200,6 +221,9 @@ class Run:
             if gas.breakthroughIter >= 0 and "breakthrough" not in taken:
                 taken.add("breakthrough")
                 self.picture("breakthrough")
+            if "rest" not in taken and self.rests():
+                taken.add("rest")
+                self.picture("rest")
             if stops and (gas.rampDone if self.ramped else gas.gasPressure - water >= stops[0]):
                 self.picture(f"{exactText(stops.pop(0))}Pa")
                 continue
@@ -209,47 +233,34 @@ class Run:
             if O.iter % CHECKPOINT_STEPS == 0:
                 self.checkpoint()
 
-    def upperBounds(self, pressures):
-        """Names of those capillary ``pressures`` [Pa] (None: not reached) that were reached where the ramp began."""
-        start = self.case["ramp"]["start"]
-        found = [name for name, p in pressures.items() if p is not None and p <= start * (1 + 1e-12)]
-        if found:
-            self.folder.warn(f"reached at ramp.start = {exactText(start)} Pa already, so upper bounds: "
-                             f"{', '.join(found)}; begin the ramp lower to find them")
-        return found
-
     def finish(self, reason):
         """Write what a finished run has; the checkpoint goes."""
         last = self.picture("end")
         moved = np.hypot(*last.displacement.T) / last.r
-        self.checkpoint()
         gas = self.gas
-        measured = mode.measureMode(gas)
-        levels = gas.levels()
-        saturation = {f"capillaryPressureAt{share:.0%} [Pa]": next(
-            (p - gas.waterPressure for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= share), None)
-            for share in (0.5, 0.9, 0.97)}
-        bounds = self.upperBounds({"initiationPressure": measured.initiationPressure,
-                                   "breakthroughPressure": measured.breakthroughPressure, **saturation})
+        levels = history.levelsToTheEnd(gas, last)
+        self.folder.writeLogs(gas, levels)
+        modes = self.modes()
         pictures = self.case["output"]["pictures"] != "none"
         if pictures:
             figures.drawCapillaryCurve(levels, self.folder.path / "curve.png", events=gas.events(), bondCount=self.folder.summary["sample"]["bondsHolding"],
-                                       breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure,
-                                       title=self.case["case"]["title"],
-                                       breakthroughAtStart="breakthroughPressure" in bounds)
-        results = {
-            "saturation": saturation, "upperBounds": bounds, "displacementWithRattlersAtEnd [r]": float(moved.max()),
-            "largestDisplacementAtEnd [r]": float(moved[~last.rattler].max()) if not last.rattler.all() else 0.0, "remeshes": gas.nRemeshes,
+                                       breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure, title=self.case["case"]["title"])
+        results = {"saturation": {f"capillaryPressureAt{share:.0%} [Pa]": next(
+            (p - gas.waterPressure for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= share), None) for share in (0.5, 0.9, 0.97)},
+            "displacementWithRattlersAtEnd [r]": float(moved.max()),
+            "largestDisplacementAtEnd [r]": modes["modeAtEnd"]["largestDisplacement"], "remeshes": gas.nRemeshes,
             "forceNetwork": mode.forceNetworkChange(self.start, last),
-            "ledger [m^3]": dict(gas.volumes()), "iterations": levels["iteration"][-1] if levels["iteration"] else 0}
+            "ledger [m^3]": dict(gas.volumes()), "iterations": last.iteration}
         course = gas.history()
         if pictures:
             history.drawHistory(course, self.folder.path / "history.png", events=gas.events(), breakthroughIter=gas.breakthroughIter,
                                 startTime=self.folder.summary["sample"]["startTime [s]"], waterPressure=gas.waterPressure, title=self.case["case"]["title"])
+        highest = max([*course["gasPressure"], *gas.events()["gasPressure"], last.gasPressure])
         results["gas"] = {**{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
-                          "highestCapillaryPressure [Pa]": max(course["gasPressure"], default=gas.gasPressure) - gas.waterPressure}
+                          "highestCapillaryPressure [Pa]": highest - gas.waterPressure}
         diagnostics = fracture.reportRun(self.folder.path, gas.openingThreshold, self.folder.writeWhole, pictures)
-        self.folder.writeSummary(state="finished", ended=reason, mode=asdict(measured), rule=mode.RULE, results=results, fracture=diagnostics, **self.cost())
+        self.folder.writeSummary(state="finished", ended=reason, **modes, rule=mode.RULE, ruleByThroats=mode.RULE_BY_THROATS, results=results,
+                                 fracture=diagnostics, **self.cost())
         self.folder.checkpoint.unlink(missing_ok=True)
 
 

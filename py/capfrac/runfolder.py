@@ -2,7 +2,7 @@
 
     summary.json          versions, parameters, seed, results, state of the run
     events.csv            every pore that gas entered: when, where, through which throat, at which pressure
-    pc_saturation.csv     every pressure level: capillary pressure, saturation, bonds, displacement
+    pc_saturation.csv     every pressure level: capillary pressure, saturation, bonds, displacement; the last may be unfinished when the run ends
     history.csv           the course in time: gas pressure, volume and mass of the gas, saturation, broken bonds
     fracture.json         branches, tips, apertures, directions, broken bonds at initiation, breakthrough and end
     fracture.csv          how the tips advanced, event by event
@@ -52,12 +52,9 @@ def exactText(value, form=".15g"):
 def caseKey(case, files):
     """A short text that is the same for cases with the same parameters; titles and places do not count.
 
-    Of the output only the pressures of snapshots do: the ramp stops at each, which shifts the levels after it.
     ``files``: those that the case names (see :func:`capfrac.namedfiles.digests`); their content counts, not their name.
     """
     parameters = {section: entries for section, entries in case.items() if section not in ("case", "output")}
-    if case.get("output", {}).get("pressures"):
-        parameters["output"] = {"pressures": sorted(set(map(float, case["output"]["pressures"])))}
     return hashlib.sha256(json.dumps(_plain(byContent(parameters, files)), sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -232,9 +229,9 @@ class RunFolder:
 
         self.writeWhole(name, write)
 
-    def writeLogs(self, gas):
-        """Write events.csv, pc_saturation.csv and history.csv from the engine's logs."""
-        e, levels, history = gas.events(), gas.levels(), gas.history()
+    def writeLogs(self, gas, levels=None):
+        """Write events.csv, pc_saturation.csv and history.csv from the engine's logs; ``levels``: those of a run that has ended."""
+        e, levels, history = gas.events(), levels or gas.levels(), gas.history()
         self.writeTable("events.csv", {
             "event": list(range(1, len(e["time"]) + 1)), "time [s]": e["time"], "iteration": e["iteration"], "level": e["level"],
             "capillaryPressure [Pa]": [p - gas.waterPressure for p in e["gasPressure"]],
@@ -248,6 +245,7 @@ class RunFolder:
             "gasSaturation": levels["gasSaturation"], "gasVolume [m^3]": levels["gasVolume"], "brokenBonds": levels["brokenBonds"],
             "displacement [r]": levels["displacement"], "displacementWithRattlers [r]": levels["displacementWithRattlers"],
             "unbalanced": levels["unbalanced"], "atRest": [int(rest) for rest in levels["atRest"]], "iteration": levels["iteration"],
+            "finished": [int(done) for done in levels.get("finished", [True] * len(levels["pressure"]))],
         })
         self.writeTable("history.csv", {
             "time [s]": history["time"], "iteration": history["iteration"], "capillaryPressure [Pa]": [p - gas.waterPressure for p in history["gasPressure"]],

@@ -14,7 +14,7 @@ All quantities are in SI units and those of a slice of the engine's thickness (1
 
 import math
 import zipfile
-from dataclasses import dataclass, fields
+from dataclasses import MISSING, dataclass, fields
 
 import numpy as np
 
@@ -61,7 +61,7 @@ class Snapshot:
     bonded: np.ndarray  #: (m,) bool: bears tension
     brokenBonds: np.ndarray  #: (k, 2) body ids of pairs that were bonded at the start and are not any more
 
-    cellVertices: np.ndarray  #: (c, 3) body ids of grains and walls
+    cellVertices: np.ndarray  #: (c, 3) body ids of grains and walls, anticlockwise
     polygonOffsets: np.ndarray  #: (c + 1,) where the corners of each cell begin in polygonCorners
     polygonCorners: np.ndarray  #: (p, 2) corners of the cells, one cell after the other [m]
     cellPhase: np.ndarray  #: (c,) WATER or GAS
@@ -89,6 +89,7 @@ class Snapshot:
     time: float = 0.0  #: [s]
     iteration: int = 0  #: of YADE [-]
     level: int = 0  #: pressure levels that are finished [-]
+    thickness: float = 1.0  #: of the slice [m]
 
     def __post_init__(self):
         lengths = {}
@@ -161,7 +162,8 @@ def load(path):
             version = int(stored["fileVersion"])
             if version != FILE_VERSION:
                 raise CapfracError(f"{path}: snapshot of version {version}, allowed: {FILE_VERSION}")
-            values = {f.name: stored[f.name] for f in fields(Snapshot)}
+            # What earlier versions of capfrac did not write has its default.
+            values = {f.name: stored[f.name] for f in fields(Snapshot) if f.name in stored or f.default is MISSING}
     except OSError as problem:
         raise CapfracError(f"the snapshot {path} cannot be read: {problem.strerror or problem}") from None
     except (ValueError, KeyError, EOFError, TypeError, IndexError, AttributeError, zipfile.BadZipFile) as problem:
@@ -202,7 +204,8 @@ def takeSnapshot(gas, start=None):
         inletPoints=[tuple(point) for point in getattr(gas, "inletPoints", [])],
         inletWall=getattr(gas, "inletWall", ""), inletFrom=getattr(gas, "inletFrom", 0.0), inletTo=getattr(gas, "inletTo", 0.0),
         gasPressure=getattr(gas, "gasPressure", math.nan), waterPressure=gas.waterPressure,
-        gasSaturation=sum(cells["gas"]) / sum(cells["void"]), time=O.time, iteration=O.iter, level=getattr(gas, "level", 0))
+        gasSaturation=sum(cells["gas"]) / sum(cells["void"]), time=O.time, iteration=O.iter, level=getattr(gas, "level", 0),
+        thickness=gas.thickness)
     snapshot.contactEnds = snapshot.endsOf(snapshot.contacts)
     return snapshot
 

@@ -1,7 +1,6 @@
 """Runs that test_rate.py and the figure of the manual share: the sample of figure16 under a ramp, and under rates.
 
-A run that is there already, of the shipped case as it is, is not made again. By itself this file makes all runs:
-``capfrac python tests/validation/rate.py``.
+A run that is there already is not made again. By itself this file makes all runs: ``capfrac python tests/validation/rate.py``.
 """
 
 import json
@@ -34,24 +33,18 @@ NUDGED = {f"small-nudged{n}": dict(volume=SMALL, rise=RISE * (1 + n * 1e-9)) for
 COARSE = {"coarse-ramp": dict(case="figure15"), "coarse-ramp-ideal": dict(case="figure15", law="ideal"), "coarse-large": dict(case="figure15", volume=LARGE_COARSE, rise=0.02)}
 
 
-def sampleOf(name, case):
-    """Path of the saved sample of a resolved case of that name."""
+def sampleOf(case, seed):
+    """Path of the saved sample of a shipped case."""
+    from capfrac.case import readCase
     from capfrac.casescene import makeSample
 
-    path = keptAs(name, case, "yade.gz")
+    path = PLACE / f"{case}-{seed}.yade.gz"
     if not path.exists():
         PLACE.mkdir(parents=True, exist_ok=True)
         O.reset()
-        makeSample(case, lambda *progress: None)
+        makeSample(readCase(case, [f"grains.seed={seed}"]), lambda *progress: None)
         O.save(str(path), quiet=True)
     return path
-
-
-def keptAs(name, case, suffix):
-    """Path of what is kept of a resolved case: a case that changed since has another."""
-    from capfrac.runfolder import caseKey
-
-    return PLACE / f"{name}-seed{case['grains']['seed']}-{caseKey(case, {})}.{suffix}"
 
 
 def one(name, seed=1, case="figure16", law="incompressible", volume=None, rise=RISE, refine=1, after=3000):
@@ -63,11 +56,10 @@ def one(name, seed=1, case="figure16", law="incompressible", volume=None, rise=R
     from capfrac import injection
     from capfrac.case import readCase
 
-    parameters = readCase(case, [f"grains.seed={seed}"])
-    path = keptAs(name, parameters, "json")
+    path = PLACE / f"{name}-seed{seed}.json"
     if path.exists():
         return json.loads(path.read_text())
-    sample = sampleOf(case, parameters)
+    sample, parameters = sampleOf(case, seed), readCase(case)
     ramp = parameters["ramp"]
     O.reset()
     O.load(str(sample), quiet=True)

@@ -8,9 +8,10 @@
 
 from capfrac.fracture.graph import SHORTEST, Branch, Fracture, findFracture
 from capfrac.fracture.orientation import axialMean, orientationVector, rayleighTest, rose, rotationTest
+from capfrac.fracture.passage import Passage, Way, findPassage
 from capfrac.fracture.report import FILES, measureFracture, orientationOfRuns, reportRun, tipAdvance
 from capfrac.fracture.stress import GrainStress, loadStress, principal, smoothField, takeStress
 from capfrac.fracture.throats import openedThroats
 
-__all__ = ["FILES", "SHORTEST", "Branch", "Fracture", "GrainStress", "axialMean", "findFracture", "loadStress", "measureFracture", "openedThroats",
+__all__ = ["FILES", "SHORTEST", "Branch", "Fracture", "GrainStress", "Passage", "Way", "axialMean", "findFracture", "findPassage", "loadStress", "measureFracture", "openedThroats",
            "orientationOfRuns", "orientationVector", "principal", "rayleighTest", "reportRun", "rose", "rotationTest", "smoothField", "takeStress", "tipAdvance"]

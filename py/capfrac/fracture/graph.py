@@ -26,7 +26,7 @@ SHORTEST = 4.0
 #: Growth of a gap from which a throat is cracked though its bond may hold, in mean radii [-]. Bonds break at a stretch of
 #: 2 chi gamma w/k_n, 0.067 mean radii in the softest of the shipped cases.
 CRACKED = 0.1
-#: Share of cracked throats on a branch, from which it is one of the fracture and not of capillary invasion [-]; as in mode.RULE.
+#: Share of cracked throats on a branch, from which it is one of the fracture and not of capillary invasion [-]; as in mode.RULE_BY_THROATS.
 MOST_OPENED = 0.5
 #: How much longer a way through a bridge is taken to be than one through the fracture [-].
 _DETOUR = 20.0
@@ -113,7 +113,7 @@ def findFracture(now, start, openingThreshold=0.01, shortest=SHORTEST):
     throats = np.flatnonzero(inGas)
     kinds = np.where(cracked[throats], "cracked", np.where(within[throats], "within", "bridge"))
     ends = row[now.throatCells[throats]]
-    distance, parent, via = _distances(place, ends, kinds, _inletNodes(now, place))
+    distance, parent, via = _distances(place, ends, kinds, inletNodes(now, place))
     isNode = _fractureNodes(distance, parent, ends, kinds)
     joined = isNode[ends].all(axis=1) & ((kinds != "bridge") | np.isin(np.arange(len(throats)), via[isNode]))
     found = Fracture(aperture=aperture, opened=opened, cracked=cracked, inGas=inGas, cells=gas[isNode], place=place[isNode], distance=distance[isNode],
@@ -140,7 +140,7 @@ def inletMiddle(now):
     return points.mean(axis=0) if len(points) else None
 
 
-def _inletNodes(now, place):
+def inletNodes(now, place):
     """Rows of the gas cells at the inlet: of each of its points, or points along its stretch of wall, the nearest within two mean diameters.
 
     (``cellInlet`` is no help: it is the engine's mark of gas that hangs on the inlet, and spreads with the gas wherever edges flip.)

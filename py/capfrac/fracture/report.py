@@ -121,13 +121,14 @@ def tipAdvance(found, events):
     return rows
 
 
-def readEvents(path):
-    """events.csv of a run folder as columns of numbers (and texts). :class:`RunFolderError` when it cannot be read."""
+def readEvents(path, integers=()):
+    """events.csv of a run folder as columns of numbers (and texts), with these ``integers`` besides; :class:`RunFolderError` when it cannot be read."""
     try:
         with open(path, newline="", encoding="utf-8") as stream:
             rows = list(csv.DictReader(stream))
         numeric = ("time [s]", "capillaryPressure [Pa]", "x [m]", "y [m]")
-        return {**{name: [float(row[name]) for row in rows] for name in numeric}, "kind": [row["kind"] for row in rows]}
+        return {**{name: [float(row[name]) for row in rows] for name in numeric}, "kind": [row["kind"] for row in rows],
+                **{name: [int(row[name]) for row in rows] for name in integers}}
     except (OSError, KeyError, ValueError, TypeError) as problem:
         raise RunFolderError(f"{path} cannot be read as the events of a run: {problem}") from None
 

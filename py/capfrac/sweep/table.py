@@ -3,24 +3,30 @@
 import csv
 import math
 
-import numpy as np
-
-from capfrac import snapshot
+from capfrac import mode
 from capfrac.errors import CaseError
 
 #: Columns after those of the sweep file: header -> how to find it in a run's summary.
 RESULTS = {
     "mode": lambda s: s["mode"]["mode"],
+    "modeByThroats": lambda s: s["mode"]["modeByThroats"],
+    "moment": lambda s: s["mode"]["moment"],
+    "modeAtBreakthrough": lambda s: s["modeAtBreakthrough"] and s["modeAtBreakthrough"]["mode"],
+    "modeAtEnd": lambda s: s["modeAtEnd"]["mode"],
     "ended": lambda s: s["ended"],
     "initiationPressure [Pa]": lambda s: s["mode"]["initiationPressure"],
     "breakthroughPressure [Pa]": lambda s: s["mode"]["breakthroughPressure"],
-    "endPressure [Pa]": lambda s: s["snapshots"][-1]["capillaryPressure [Pa]"],
+    "endPressure [Pa]": lambda s: s["modeAtEnd"]["capillaryPressure"],
+    "openedOnWay [-]": lambda s: s["mode"]["openedOnWay"],
+    "rigidOnWay [-]": lambda s: s["mode"]["rigidOnWay"],
+    "madeRoom [-]": lambda s: s["mode"]["madeRoom"],
     "openedShare [-]": lambda s: s["mode"]["openedShare"],
     "invadedThroats [-]": lambda s: s["mode"]["invadedThroats"],
     "brokenBonds [-]": lambda s: s["mode"]["brokenBonds"],
     "bonds [-]": lambda s: s["sample"]["bondsHolding"],
     "displacement [r]": lambda s: s["mode"]["largestDisplacement"],
-    "medianDisplacement [r]": lambda s: s["medianDisplacement"],
+    "medianDisplacement [r]": lambda s: s["mode"]["medianDisplacement"],
+    "displacement90 [r]": lambda s: s["mode"]["displacement90"],
     "gasSaturation [-]": lambda s: s["mode"]["finalSaturation"],
     "inletPores [-]": lambda s: s["sample"]["inletPores"],
     "inletWidth [m]": lambda s: s["sample"]["inletWidth [m]"],
@@ -30,8 +36,6 @@ RESULTS = {
     "entryPressureMin [Pa]": lambda s: s["sample"]["throatEntryPressureMin [Pa]"],
     "entryPressureMax [Pa]": lambda s: s["sample"]["throatEntryPressureMax [Pa]"],
     "iterations [-]": lambda s: s["results"]["iterations"],
-    "upperBounds": lambda s: " ".join(s["results"].get("upperBounds", ())),
-    "warnings": lambda s: "; ".join(s.get("warnings", ())),
     "cpuSeconds [s]": lambda s: s["cpuSeconds"],
     "capfrac": lambda s: s["versions"]["capfrac"],
     "yade": lambda s: s["versions"]["yade"],
@@ -42,24 +46,10 @@ def row(point, columns, state, summary, folder, error=""):
     """The line of a point with its run folder: dict of header -> value; what a point that is not finished does not have is None."""
     line = {"point": point.name, "state": state, **{header(name, unit): point.values[name] for name, unit in columns.items()}}
     if state == "finished":
-        summary = {**summary, "medianDisplacement": medianDisplacement(folder)}
+        summary = {**summary, **mode.summarised(summary, folder)}
     for name, find in RESULTS.items():
         line[name] = find(summary) if state == "finished" else None
     return {**line, "error": " ".join(error.split())}
-
-
-def medianDisplacement(folder):
-    """Median displacement since the start of the grains that bore load then, over their radii [-]: at the breakthrough, or at the end without one.
-
-    One grain that slips away makes the largest displacement; this one says whether the sediment as a whole gave way.
-    """
-    shots = folder / "snapshots"
-    path = next((path for path in (shots / "breakthrough.npz", shots / "end.npz") if path.exists()), None)
-    if path is None:
-        return math.nan
-    shot = snapshot.load(path)
-    moved = (np.hypot(*shot.displacement.T) / shot.r)[~shot.rattler]
-    return float(np.median(moved)) if len(moved) else math.nan
 
 
 def header(name, unit):
@@ -82,7 +72,7 @@ def read(path, needed=()):
     Raises :class:`CaseError` for a file that is no such table, or one that lacks a ``needed`` column.
     """
     try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:  # a spreadsheet may have saved it
+        with open(path, newline="", encoding="utf-8") as stream:
             rows = list(csv.DictReader(stream))
     except (OSError, UnicodeDecodeError) as problem:
         raise CaseError(f"the table {path} cannot be read: {problem}") from None
