@@ -91,7 +91,7 @@ def _inject(arguments):
     finally:
         progress.close()
     print(f"{summary['title'] or case['case']['name']}: {summary['ended']}")
-    print(mode.asText(mode.summarised(summary, folder)["mode"]))
+    print(mode.asText(mode.summarised(summary, folder)["mode"], summary["results"].get("upperBounds", ())))
     for text in summary.get("warnings", ()):
         print(f"warning: {text}")
     print(f"run folder: {folder}")

@@ -53,13 +53,15 @@ def drawPair(snapshots, path, titles=None, width=3.6, forces=True, bonds=True, d
     _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
 
 
-def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPressure=math.nan, waterPressure=0.0, title=None):
+def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPressure=math.nan, waterPressure=0.0,
+                       title=None, breakthroughAtStart=False):
     """Draw what an injection did, level by level: P_c against saturation, opening and displacement against P_c.
 
     ``levels`` and ``events`` are the dicts of ``gas.levels()`` and ``gas.events()``. The second panel shows the share of
     the invaded throats that had opened (with ``events``) and broken bonds, as a share of ``bondCount`` where that is
     given. Pressures are those of the engine [Pa]; ``waterPressure`` is taken off. Hollow marks are levels that ended
     before the grains were at rest. Without a finished level the panels stay empty: a run may end within its first.
+    ``breakthroughAtStart``: gas was through where the ramp began, so its pressure is marked as an upper bound.
     """
     highest = max(levels["pressure"], default=0.0) - waterPressure
     power, unit = max((power, unit) for power, unit in ((0, "Pa"), (3, "kPa"), (6, "MPa")) if power == 0 or highest >= 10.0**power)
@@ -108,7 +110,8 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
         if math.isfinite(breakthrough):
             marker = {"color": "0.45", "linewidth": 0.9, "linestyle": (0, (4, 3)), "zorder": 1}
             curve.axhline(breakthrough, **marker)
-            curve.text(0.98, breakthrough, "breakthrough", ha="right", va="bottom", fontsize=7, color="0.35")
+            word = "breakthrough here or below" if breakthroughAtStart else "breakthrough"
+            curve.text(0.98, breakthrough, word, ha="right", va="bottom", fontsize=7, color="0.35")
             opening.axvline(breakthrough, **marker)
             moving.axvline(breakthrough, **marker)
         for axes in figure.axes:

@@ -58,6 +58,7 @@ class Run:
             return
         nBonds = casescene.makeSample(self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}"))
         self.gas = casescene.startGas(self.case)
+        self.warnOfStart()
         throats = [p for p in self.gas.throats()["entryPressure"] if p > 0]
         bonded = sum(1 for i in O.interactions if i.isReal and not i.phys.cohesionBroken)
         self.folder.writeSummary(
@@ -70,6 +71,24 @@ class Run:
         self.start = snapshot.takeSnapshot(self.gas)
         self.picture("start")
         self.checkpoint()
+
+    def warnOfStart(self):
+        """Say what can be known before the first step to make results empty."""
+        if self.gas.breakthroughIter >= 0:
+            self.warn("a pore of the inlet touches the outlet before any gas moves, so the breakthrough says nothing; "
+                      "choose a narrower inlet, one farther from the outlet, or a larger sample")
+        low, high = self.pressureRange()
+        outside = [p for p in self.case["output"]["pressures"] if not low <= p <= high]
+        if outside:
+            self.warn(f"output.pressures: no snapshot at {', '.join(map(exactText, outside))} Pa, the capillary "
+                      f"pressure goes from {exactText(low)} to {exactText(high)} Pa")
+
+    def pressureRange(self):
+        """Lowest and highest capillary pressure that the case prescribes [Pa]."""
+        start, end, program = self.case["ramp"]["start"], self.case["ramp"]["max"], self.case["supply"]["program"]
+        if program:
+            return min(start, *program), max(start, *program)
+        return start, math.inf if end is None else end
 
     def warn(self, text):
         """Say a warning, and keep it in the summary."""
@@ -173,9 +192,8 @@ class Run:
 
     def stops(self):
         """Pressures at which snapshots are asked for, those on the way, ascending, each once [Pa]."""
-        ramp = self.case["ramp"]
-        highest = math.inf if ramp["max"] is None else ramp["max"]
-        return sorted({p for p in self.case["output"]["pressures"] if ramp["start"] <= p < highest})
+        low, high = self.pressureRange()
+        return sorted({float(p) for p in self.case["output"]["pressures"] if low <= p < high})
 
     def advance(self, taken):
         """Run to the next look at the run: less far where what a snapshot waits for may have come, so that it is of that very step."""
@@ -233,6 +251,15 @@ class Run:
             if O.iter % CHECKPOINT_STEPS == 0:
                 self.checkpoint()
 
+    def upperBounds(self, pressures):
+        """Names of those capillary ``pressures`` [Pa] (None: not reached) that were reached where the ramp began."""
+        start = self.case["ramp"]["start"]
+        found = [name for name, p in pressures.items() if p is not None and p <= start * (1 + 1e-12)]
+        if found:
+            self.folder.warn(f"reached at ramp.start = {exactText(start)} Pa already, so upper bounds: "
+                             f"{', '.join(found)}; begin the ramp lower to find them")
+        return found
+
     def finish(self, reason):
         """Write what a finished run has; the checkpoint goes."""
         last = self.picture("end")
@@ -241,13 +268,19 @@ class Run:
         levels = history.levelsToTheEnd(gas, last)
         self.folder.writeLogs(gas, levels)
         modes = self.modes()
+        saturation = {f"capillaryPressureAt{share:.0%} [Pa]": next(
+            (p - gas.waterPressure for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= share), None)
+            for share in (0.5, 0.9, 0.97)}
+        bounds = self.upperBounds({**{name: modes["mode"][name] for name in ("initiationPressure", "breakthroughPressure")},
+                                   **saturation})
         pictures = self.case["output"]["pictures"] != "none"
         if pictures:
             figures.drawCapillaryCurve(levels, self.folder.path / "curve.png", events=gas.events(), bondCount=self.folder.summary["sample"]["bondsHolding"],
-                                       breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure, title=self.case["case"]["title"])
-        results = {"saturation": {f"capillaryPressureAt{share:.0%} [Pa]": next(
-            (p - gas.waterPressure for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= share), None) for share in (0.5, 0.9, 0.97)},
-            "displacementWithRattlersAtEnd [r]": float(moved.max()),
+                                       breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure,
+                                       title=self.case["case"]["title"],
+                                       breakthroughAtStart="breakthroughPressure" in bounds)
+        results = {
+            "saturation": saturation, "upperBounds": bounds, "displacementWithRattlersAtEnd [r]": float(moved.max()),
             "largestDisplacementAtEnd [r]": modes["modeAtEnd"]["largestDisplacement"], "remeshes": gas.nRemeshes,
             "forceNetwork": mode.forceNetworkChange(self.start, last),
             "ledger [m^3]": dict(gas.volumes()), "iterations": last.iteration}

@@ -181,12 +181,14 @@ def summarised(summary, folder):
     return {name: found and asdict(found) for name, found in modesOfRun(folder).items()}
 
 
-def asText(numbers):
-    """The measures, a :class:`Mode` or the dict of one, as lines for people."""
+def asText(numbers, upperBounds=()):
+    """The measures, a :class:`Mode` or the dict of one, as lines for people; those named in ``upperBounds`` are marked."""
     numbers = dict(numbers) if isinstance(numbers, dict) else asdict(numbers)
     lines = [f"mode: {numbers.pop('mode')}"]
     for name, value in numbers.items():
-        lines.append(f"  {name}: {'none' if value is None else format(value, '.4g') if isinstance(value, float) else value}")
+        bound = " or lower" if name in upperBounds else ""
+        text = "none" if value is None else format(value, ".4g") if isinstance(value, float) else value
+        lines.append(f"  {name}: {text}{bound}")
     return "\n".join(lines)
 
 

@@ -52,9 +52,12 @@ def exactText(value, form=".15g"):
 def caseKey(case, files):
     """A short text that is the same for cases with the same parameters; titles and places do not count.
 
+    Of the output only the pressures of snapshots do: the ramp stops at each, which shifts the levels after it.
     ``files``: those that the case names (see :func:`capfrac.namedfiles.digests`); their content counts, not their name.
     """
     parameters = {section: entries for section, entries in case.items() if section not in ("case", "output")}
+    if case.get("output", {}).get("pressures"):
+        parameters["output"] = {"pressures": sorted(set(map(float, case["output"]["pressures"])))}
     return hashlib.sha256(json.dumps(_plain(byContent(parameters, files)), sort_keys=True).encode()).hexdigest()[:16]
 
 

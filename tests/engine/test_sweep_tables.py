@@ -104,3 +104,5 @@ def test_numbersOfATableAreRead(tmp_path):
     table.write(tmp_path / "t.csv", [{"point": "a", "state": "finished", "x [m]": 1.5e-7, "y [Pa]": None, "mode": "mixed", "capfrac": "0.1.0"}])
     row, = table.read(tmp_path / "t.csv")
     assert row["x [m]"] == 1.5e-7 and math.isnan(row["y [Pa]"]) and (row["mode"], row["capfrac"]) == ("mixed", "0.1.0")
+    (tmp_path / "t.csv").write_bytes(b"\xef\xbb\xbf" + (tmp_path / "t.csv").read_bytes())  # a spreadsheet has saved it
+    assert table.read(tmp_path / "t.csv")[0]["point"] == "a"

@@ -8,7 +8,23 @@ import pytest
 from capfrac import casepacking, injection, packing
 from capfrac.case import resolveCase
 from capfrac.errors import CaseError
+from capfrac.sweep import readSweep
 from processes import run
+
+BASE = """
+[grains]
+packing = "p.csv"
+rMin = 0.95e-3
+[stress]
+vertical = 1e4
+horizontal = 1e4
+[inlet]
+pores = 1
+[ramp]
+start = 50
+increment = 10
+max = 400
+"""
 
 
 def write(path, scale=1.0, header="x,y,r", radius=1e-3, places=1.0):
@@ -115,9 +131,7 @@ def test_radiiTooFarApart(tmp_path):
 
 def test_nothingIsLeftOfWhatIsRefused(command, tmp_path):
     write(tmp_path / "p.csv", 1e3)
-    (tmp_path / "case.toml").write_text('[grains]\npacking = "p.csv"\nrMin = 0.95e-3\n'
-                                        "[stress]\nvertical = 1e4\nhorizontal = 1e4\n[inlet]\npores = 1\n"
-                                        "[ramp]\nstart = 50\nincrement = 10\nmax = 400\n")
+    (tmp_path / "case.toml").write_text(BASE)
     status, output, errors = run(command, "inject", tmp_path / "case.toml", "-o", tmp_path / "run")
     assert status == 1 and output == "" and "are the numbers of the file in mm?" in errors
     assert not (tmp_path / "run").exists()
@@ -131,3 +145,29 @@ def test_warningsAreKeptAndPrinted(command, tmp_path):
     summary = injection.inject(case, tmp_path / "run", report=lines.append)
     text, = summary["warnings"]
     assert "the file counts" in text and f"warning: {text}" in lines
+
+
+def test_seedWithAPackingIsNoOtherSample(command, tmp_path):
+    write(tmp_path / "p.csv")
+    case = caseOf(tmp_path / "p.csv", seed=7)
+    assert case["grains"]["seed"] == 1 and any("grains.seed = 7" in text for text in case["case"]["warnings"])
+    # Two seeds of one packing would stand in a table as two samples.
+    (tmp_path / "base.toml").write_text(BASE)
+    (tmp_path / "many.toml").write_text('[sweep]\ncase = "base.toml"\n[[grid]]\ngrains.seed = [1, 2, 3]\n')
+    status, output, errors = run(command, "sweep", tmp_path / "many.toml", "-o", tmp_path / "sweep")
+    assert status == 1 and output == "" and not (tmp_path / "sweep").exists()
+    assert "the points seed1 and seed2 would be the same run: grains.seed has no effect in them; leave one" in errors
+    # Without the packing they are samples.
+    drawn = '[sweep]\ncase = "base.toml"\n[set]\ngrains.packing = ""\n[[grid]]\ngrains.seed = [1, 2]\n'
+    (tmp_path / "many.toml").write_text(drawn)
+    assert len(readSweep(tmp_path / "many.toml").points) == 2
+
+
+def test_packingWithoutRadiiInTheCase(tmp_path):
+    path = write(tmp_path / "p.csv")
+    case = resolveCase({"grains": {"packing": str(path)}, "stress": {"vertical": 10e3, "horizontal": 10e3},
+                        "inlet": {"pores": 1}, "ramp": {"start": 50, "increment": 10, "max": 400}})
+    assert casepacking.checkPacking(case) == []
+    write(path, 1e3)  # nothing to compare with, but grains of a metre
+    text, = casepacking.checkPacking(case)
+    assert "a boulder; are the numbers of the file in mm?" in text

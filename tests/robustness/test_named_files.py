@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from capfrac import injection, namedfiles, packing
+from capfrac import injection, namedfiles
 from capfrac.case import resolveCase
 from capfrac.errors import CaseError, RunFolderError
 from capfrac.lab import command as lab
@@ -13,17 +13,11 @@ from capfrac.lab import parameters
 from capfrac.lab.run import LabRun
 from capfrac.runfolder import RunFolder, caseKey, difference
 from capfrac.sweep import readSweep, runSweep
-from processes import run
+from processes import run, writePacking
 
 
 def inject(case, folder, **options):
     return injection.inject(case, folder, report=lambda text: None, replaceScene=True, **options)
-
-
-def writePacking(path, scale=1.0, comment="", radius=1e-3):
-    x, y, r = packing.hexagonal(12, radius * scale)
-    rows = zip(x.tolist(), y.tolist(), (0.99 * r).tolist())
-    path.write_text(f"{comment}x,y,r\n" + "".join(f"{a!r},{b!r},{c!r}\n" for a, b, c in rows))
 
 
 def caseOf(folder, name="packing.csv", **grains):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from capfrac import injection, packing, snapshot
+from capfrac import injection, snapshot
 from capfrac.case import resolveCase
 from capfrac.errors import CaseError
 from capfrac.lab import biaxial, settling
@@ -12,6 +12,7 @@ from capfrac.lab.water import stability
 from capfrac.runfolder import exactText
 from capfrac.sediment import Sediment
 from capfrac.sweep import resolveSweep
+from processes import writePacking
 
 
 @pytest.mark.parametrize("value, name", [
@@ -35,9 +36,7 @@ def test_namesTellNumbersApart(form):
 
 
 def test_snapshotsAtPressuresCloseTogether(tmp_path):
-    x, y, r = packing.hexagonal(12, 50e-3)
-    rows = zip(x.tolist(), y.tolist(), (0.99 * r).tolist())
-    (tmp_path / "p.csv").write_text("x,y,r\n" + "".join(f"{a!r},{b!r},{c!r}\n" for a, b, c in rows))
+    writePacking(tmp_path / "p.csv", 50)
     pressures = [2.25, 2.1, 2, 2.2, 2.0, 2.1, 2.1000000000000001, 2.1000000000000005, 2.5]
     case = resolveCase({"grains": {"rMin": 50e-3, "packing": str(tmp_path / "p.csv")},
                         "stress": {"vertical": 10e3, "horizontal": 10e3}, "inlet": {"pores": 1},

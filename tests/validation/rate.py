@@ -1,6 +1,7 @@
 """Runs that test_rate.py and the figure of the manual share: the sample of figure16 under a ramp, and under rates.
 
-A run that is there already is not made again. By itself this file makes all runs: ``capfrac python tests/validation/rate.py``.
+A run that is there already, of the shipped case as it is, is not made again. By itself this file makes all runs:
+``capfrac python tests/validation/rate.py``.
 """
 
 import json
@@ -33,18 +34,24 @@ NUDGED = {f"small-nudged{n}": dict(volume=SMALL, rise=RISE * (1 + n * 1e-9)) for
 COARSE = {"coarse-ramp": dict(case="figure15"), "coarse-ramp-ideal": dict(case="figure15", law="ideal"), "coarse-large": dict(case="figure15", volume=LARGE_COARSE, rise=0.02)}
 
 
-def sampleOf(case, seed):
-    """Path of the saved sample of a shipped case."""
-    from capfrac.case import readCase
+def sampleOf(name, case):
+    """Path of the saved sample of a resolved case of that name."""
     from capfrac.casescene import makeSample
 
-    path = PLACE / f"{case}-{seed}.yade.gz"
+    path = keptAs(name, case, "yade.gz")
     if not path.exists():
         PLACE.mkdir(parents=True, exist_ok=True)
         O.reset()
-        makeSample(readCase(case, [f"grains.seed={seed}"]), lambda *progress: None)
+        makeSample(case, lambda *progress: None)
         O.save(str(path), quiet=True)
     return path
+
+
+def keptAs(name, case, suffix):
+    """Path of what is kept of a resolved case: a case that changed since has another."""
+    from capfrac.runfolder import caseKey
+
+    return PLACE / f"{name}-seed{case['grains']['seed']}-{caseKey(case, {})}.{suffix}"
 
 
 def one(name, seed=1, case="figure16", law="incompressible", volume=None, rise=RISE, refine=1, after=3000):
@@ -56,10 +63,11 @@ def one(name, seed=1, case="figure16", law="incompressible", volume=None, rise=R
     from capfrac import injection
     from capfrac.case import readCase
 
-    path = PLACE / f"{name}-seed{seed}.json"
+    parameters = readCase(case, [f"grains.seed={seed}"])
+    path = keptAs(name, parameters, "json")
     if path.exists():
         return json.loads(path.read_text())
-    sample, parameters = sampleOf(case, seed), readCase(case)
+    sample = sampleOf(case, parameters)
     ramp = parameters["ramp"]
     O.reset()
     O.load(str(sample), quiet=True)

@@ -1,7 +1,8 @@
 """Runs that the validation tests share: cases of capfrac, run side by side into folders that are kept.
 
-A run that is there already is not made again, so an interrupted validation goes on where it stopped. By itself this
-file makes all runs and writes the tables of the manual: ``capfrac python tests/validation/runs.py``.
+A run of the same parameters that is there already is not made again, so an interrupted validation goes on where it
+stopped; one of others is refused by ``capfrac inject`` itself. By itself this file makes all runs and writes the tables
+of the manual: ``capfrac python tests/validation/runs.py``.
 """
 
 import csv
@@ -61,17 +62,17 @@ def stiffnessRuns():
 
 
 def execute(runs, workers=2):
-    """Run what is missing; returns name -> summary."""
+    """Run what is missing; returns name -> summary. RuntimeError for one that fails, or whose folder holds another."""
 
     def one(item):
         name, (case, overrides) = item
-        summary = FOLDER / name / "summary.json"
-        if not (summary.exists() and json.loads(summary.read_text()).get("state") == "finished"):
-            sets = [word for key, value in overrides.items() for word in ("-s", f"{key}={value}")]
-            command = [sys.executable, "-m", "capfrac.cli", "inject", case, "-q", "-o", str(FOLDER / name), *sets]
-            done = subprocess.run(command, capture_output=True, text=True)
-            print(name, "done" if done.returncode == 0 else done.stderr.strip(), flush=True)
-        return name, json.loads(summary.read_text())
+        sets = [word for key, value in overrides.items() for word in ("-s", f"{key}={value}")]
+        command = [sys.executable, "-m", "capfrac.cli", "inject", case, "-q", "-o", str(FOLDER / name), *sets]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            raise RuntimeError(f"{name}: {done.stderr.strip()}")
+        print(name, "done", flush=True)
+        return name, json.loads((FOLDER / name / "summary.json").read_text())
 
     FOLDER.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(workers) as pool:

@@ -62,7 +62,10 @@ def _told(place, point, state):
     if state == "failed":
         return f"FAILED ({line['error'][:120]})"
     pressure = line["breakthroughPressure [Pa]"]
-    return f"{line['mode']}, {'gas through at' if pressure is not None else 'ended at'} {line['endPressure [Pa]'] if pressure is None else pressure:.4g} Pa"
+    if pressure is None:
+        return f"{line['mode']}, ended at {line['endPressure [Pa]']:.4g} Pa"
+    bound = " or below" if "breakthroughPressure" in line["upperBounds"] else ""
+    return f"{line['mode']}, gas through at {pressure:.4g} Pa{bound}"
 
 
 def asTime(seconds):

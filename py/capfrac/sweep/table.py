@@ -36,6 +36,8 @@ RESULTS = {
     "entryPressureMin [Pa]": lambda s: s["sample"]["throatEntryPressureMin [Pa]"],
     "entryPressureMax [Pa]": lambda s: s["sample"]["throatEntryPressureMax [Pa]"],
     "iterations [-]": lambda s: s["results"]["iterations"],
+    "upperBounds": lambda s: " ".join(s["results"].get("upperBounds", ())),
+    "warnings": lambda s: "; ".join(s.get("warnings", ())),
     "cpuSeconds [s]": lambda s: s["cpuSeconds"],
     "capfrac": lambda s: s["versions"]["capfrac"],
     "yade": lambda s: s["versions"]["yade"],
@@ -72,7 +74,7 @@ def read(path, needed=()):
     Raises :class:`CaseError` for a file that is no such table, or one that lacks a ``needed`` column.
     """
     try:
-        with open(path, newline="", encoding="utf-8") as stream:
+        with open(path, newline="", encoding="utf-8-sig") as stream:  # a spreadsheet may have saved it
             rows = list(csv.DictReader(stream))
     except (OSError, UnicodeDecodeError) as problem:
         raise CaseError(f"the table {path} cannot be read: {problem}") from None
