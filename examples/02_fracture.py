@@ -18,6 +18,7 @@ capfrac.load_engines()
 from yade import O
 
 from capfrac import injection, mode, sediment, snapshot
+from capfrac.errors import CaseError
 
 
 def main(grainCount=300, seed=1, inlets=(1, 3, 5)):
@@ -32,7 +33,12 @@ def main(grainCount=300, seed=1, inlets=(1, 3, 5)):
         for pores in inlets:
             O.reset()
             O.load(saved, quiet=True)
-            gas = injection.startInjection(start=80e3, increment=1e3, max=250e3, pores=pores, interfacialTension=tension)
+            try:
+                gas = injection.startInjection(start=80e3, increment=1e3, max=250e3, pores=pores,
+                                               interfacialTension=tension)
+            except CaseError as problem:  # a small sample may have fewer pores along the bottom
+                print(problem)
+                continue
             start = snapshot.takeSnapshot(gas)
             while gas.breakthroughIter < 0 and not gas.rampDone:
                 O.run(200, True)

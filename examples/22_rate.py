@@ -9,6 +9,7 @@ Expect: the first opened throat at the same pressure, some 140 kPa; from the lar
 one drops of ten kPa and more. The gas is accounted for to 1e-10 of its mass. Some minutes.
 """
 
+import math
 import os
 import sys
 import tempfile
@@ -37,13 +38,17 @@ def main(grainCount=300, seed=1, folder="runs/22_rate", volumes=(1, 100), start=
         for volume in volumes:
             O.reset()
             O.load(saved, quiet=True)
-            results[volume] = inject(volume, start, rise, folder)
+            results[volume] = inject(volume, start, rise, folder, pores=max(1, round(0.35 * math.sqrt(grainCount))))
     return results
 
 
-def inject(volume, start, rise, folder):
-    """From a dead volume of `volume` times the pores until the gas is at the top; a dict of numbers."""
-    gas = injection.startInjection(start, increment=1e3, max=250e3, pores=6, gasLaw="ideal", invasionInterval=50, historyInterval=20)
+def inject(volume, start, rise, folder, pores):
+    """From a dead volume of `volume` times the pores until the gas is at the top; a dict of numbers.
+
+    The inlet is ``pores`` wide, a third of the bottom: 6 of 300 grains.
+    """
+    gas = injection.startInjection(start, increment=1e3, max=250e3, pores=pores, gasLaw="ideal",
+                                   invasionInterval=50, historyInterval=20)
     gas.reservoirVolume = volume * gas.initialVoid
     gas.gasRate = 1e-6
     gas.gasRate *= rise / gas.risePerPeriod()  # in proportion

@@ -1,4 +1,4 @@
-"""What all tests share: a clean YADE scene for each, two small settled samples made once, scenes set by hand.
+"""What all tests share: a clean YADE scene for each, a small settled sample in two sizes, scenes set by hand.
 
 YADE has one scene per process. Every test gets it empty, so no test sees what another one left; tests that need the
 command itself start it as a process of its own (tests/robustness).
@@ -21,11 +21,16 @@ from yade import O, utils  # noqa: E402  (YADE must be found by capfrac first)
 
 from capfrac import sediment  # noqa: E402
 
-#: Cohesion of the samples, chi gamma with chi = 10 as in the paper [N/m].
-CAPILLARY_STRENGTH = 10 * 0.05
+from settled import buildSettled, same  # noqa: E402
+
+#: By how much of its radius ``--nudge`` moves a grain [-]: some thousand roundings.
+NUDGE = 1e-12
 
 
 def pytest_addoption(parser):
+    parser.addoption("--nudge", type=int, default=0, metavar="SEED",
+                     help="move the grains of all samples by 1e-12 of their radius at random, as other compilers and "
+                     "libraries do sooner or later: a test that then fails tests the sample, not the program")
     parser.addoption("--validation", action="store_true", help="run the long comparisons in tests/validation, too")
 
 
@@ -52,32 +57,52 @@ def cleanScene():
 
 
 @pytest.fixture(scope="session")
-def settledSamples(tmp_path_factory):
-    """Makes a sample the first time it is asked for; a function (rMin, count) -> path of the saved scene.
+def nudge(request):
+    """A function ((x, y), radii) -> places of the grains as ``--nudge`` has them; as they are without."""
+    seed = request.config.getoption("--nudge")
 
-    Settling, compressing to 10 and 8 kPa, bonding: some 3 s for 60 grains, so it is done once, and kept as a file.
-    """
+    def moved(places, radii):
+        shift = np.random.default_rng(seed).uniform(-NUDGE, NUDGE, (2, len(radii))) * radii
+        return places[0] + shift[0], places[1] + shift[1]
+
+    return moved if seed else same
+
+
+@pytest.fixture(autouse=True)
+def nudgedSamples(nudge, monkeypatch):
+    """Samples that a test draws are nudged before they settle."""
+    if nudge is not same:
+        place = sediment.placeGrains
+
+        def placed(sample, radii):
+            x, y, *size = place(sample, radii)
+            return *nudge((x, y), radii), *size
+
+        monkeypatch.setattr(sediment, "placeGrains", placed)
+
+
+@pytest.fixture(scope="session")
+def settledSample(tmp_path_factory, nudge):
+    """A function (rMin) -> path of a scene: the stored sample (tests/settled.py), built when it is first asked for."""
     folder, paths = tmp_path_factory.mktemp("samples"), {}
 
-    def path(rMin, count):
-        if (rMin, count) not in paths:
+    def path(rMin):
+        if rMin not in paths:
             O.reset()
-            sediment.makeSample(sediment.Sediment(grainCount=count, rMin=rMin, rMax=2 * rMin, seed=1), stressV=10e3, stressH=8e3)
-            sediment.bond(CAPILLARY_STRENGTH)
-            sediment.relax()
-            paths[rMin, count] = folder / f"{rMin:g}-{count}.yade.gz"
-            O.save(str(paths[rMin, count]), quiet=True)
-        return paths[rMin, count]
+            buildSettled(rMin, nudge)
+            paths[rMin] = folder / f"{rMin:g}.yade.gz"
+            O.save(str(paths[rMin]), quiet=True)
+        return paths[rMin]
 
     return path
 
 
 @pytest.fixture
-def loadSample(settledSamples):
-    """Puts a settled, bonded sample into the scene, a fresh copy each time it is called."""
+def loadSample(settledSample):
+    """Puts the settled, bonded sample of 60 grains into the scene, a fresh copy each time; a function (rMin [m])."""
 
-    def load(rMin=1e-3, count=60):
-        path = settledSamples(rMin, count)
+    def load(rMin=1e-3):
+        path = settledSample(rMin)
         O.reset()
         O.load(str(path), quiet=True)
 

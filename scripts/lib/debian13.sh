@@ -8,7 +8,8 @@ apart() { unshare --mount --pid --fork --kill-child --mount-proc "$@"; }
 require_debian13_host() {
 	((EUID == 0)) || die "a Debian 13 beside this system can be set up by root only (debootstrap, chroot);
   run:  sudo scripts/test --debian13"
-	apart true 2>/dev/null || die "this system lets not even root mount (a container without that right?), so no Debian 13 can be set up in it"
+	apart true 2>/dev/null || die "this system does not let root mount (a container without that right?):
+  no Debian 13 can be set up in it"
 	require_packages debootstrap debian-archive-keyring git
 }
 
@@ -18,7 +19,8 @@ give_network() {
 	for file in /etc/resolv.conf /etc/hosts; do
 		[[ ! -e $file ]] || cp --dereference --remove-destination "$file" "$1$file"
 	done
-	apt-config dump | grep -iE '^Acquire::https?::(Proxy|Proxy-Auto-Detect)(::[^ ]*)? ' >"$1/etc/apt/apt.conf.d/80host-proxy" || true
+	apt-config dump | grep -iE '^Acquire::https?::(Proxy|Proxy-Auto-Detect)(::[^ ]*)? ' \
+		>"$1/etc/apt/apt.conf.d/80host-proxy" || true
 }
 
 # make_debian13 DIR: Debian's smallest system, once; an interrupted try is thrown away, since debootstrap cannot go on.
@@ -32,7 +34,7 @@ make_debian13() {
 	say "setting up a bare Debian 13 in $dir, once (some two minutes)"
 	apart debootstrap --variant=minbase --include=ca-certificates --keyring="$keyring" trixie "$dir" "$mirror" 2>&1 \
 		| tee "$dir.log" | sed -unE 's/^I: (.* (packages|system)\.\.\.|.* successfully\.)$/  \1/p' \
-		|| { tail -n 10 "$dir.log" >&2; die "debootstrap could not set up Debian 13 from $mirror; the whole output is in $dir.log"; }
+		|| { tail -n 10 "$dir.log" >&2; die "debootstrap could not get Debian 13 from $mirror; its output is in $dir.log"; }
 	touch "$dir.complete"
 }
 
@@ -50,7 +52,7 @@ put_clone() {
 	say "Debian 13: commit $(git -C "$dir" log -1 --format='%h (%s)')"
 }
 
-# in_debian13 DIR COMMAND...: runs a command in the clone in there, as root, with a bare environment; returns its status.
+# in_debian13 DIR COMMAND...: runs a command in the clone in there, as root, with a bare environment; its status.
 in_debian13() {
 	local dir=$1 name proxies=()
 	shift
@@ -69,20 +71,20 @@ in_debian13() {
 		status=0
 		chroot "$root" "$@" || status=$?
 		exit $status
-	' in_debian13 "$dir" /usr/bin/env -i "PATH=/usr/local/sbin:/usr/local/bin:$SYSTEM_PATH" HOME=/root LANG=C.UTF-8 "TERM=${TERM:-dumb}" \
-		"${proxies[@]}" bash -c 'cd /root/capfrac && exec "$@"' bash "$@"
+	' in_debian13 "$dir" /usr/bin/env -i "PATH=/usr/local/sbin:/usr/local/bin:$SYSTEM_PATH" HOME=/root LANG=C.UTF-8 \
+		"TERM=${TERM:-dumb}" "${proxies[@]}" bash -c 'cd /root/capfrac && exec "$@"' bash "$@"
 }
 
 # mend_packages DIR: what an interrupted run left half installed; nothing to do else.
 mend_packages() {
-	in_debian13 "$1" env DEBIAN_FRONTEND=noninteractive sh -c 'dpkg --configure -a || apt-get --fix-broken --yes --quiet install' \
-		>>"$1.log" 2>&1 \
+	in_debian13 "$1" env DEBIAN_FRONTEND=noninteractive \
+		sh -c 'dpkg --configure -a || apt-get --fix-broken --yes --quiet install' >>"$1.log" 2>&1 \
 		|| { tail -n 10 "$1.log" >&2; die "the packages in $1 cannot be mended; remove that folder and start again"; }
 }
 
-# test_on_debian13 [--validation] [ARGUMENTS FOR PYTEST]: both commands of the README, or with arguments the tests alone.
+# test_on_debian13 [--validation] [ARGUMENTS FOR PYTEST]: both commands of the README; with arguments the tests alone.
 test_on_debian13() {
-	local dir=$CAPFRAC_CACHE/debian13 validation=() status=0 start=$SECONDS
+	local dir=$CAPFRAC_CACHE/debian13 validation=() status=0 start=$SECONDS result
 	[[ ${1:-} != --validation ]] || { validation=(--validation); shift; }
 	require_debian13_host
 	exec 8>"$dir.lock"
@@ -98,6 +100,7 @@ test_on_debian13() {
 	fi
 	say "Debian 13: scripts/test${validation:+ --validation}${*:+ -- $*}"
 	in_debian13 "$dir" scripts/test "${validation[@]}" -- "$@" || status=$?
-	say "Debian 13: $( ((status == 0)) && echo 'all passed' || echo "failed (status $status)") in $(minutes $((SECONDS - start)))"
+	((status == 0)) && result='all passed' || result="failed (status $status)"
+	say "Debian 13: $result in $(minutes $((SECONDS - start)))"
 	return $status
 }

@@ -60,12 +60,27 @@ def test_inletTakesPoresByTheirMiddle(rigid):
                 gas.prepare()
 
 
-def test_inletOfPoints(rigid):
+def voidPoint(polygon):
+    """A point of a triangular cell that lies in no grain, or None: of a grid, the one farthest from the grains."""
+    share = np.array([(i, j, 40 - i - j) for i in range(1, 40) for j in range(1, 40 - i)]) / 40
+    grains = [body for body in O.bodies if hasattr(body.shape, "radius")]
+    places, radii = np.array([tuple(b.state.pos)[:2] for b in grains]), np.array([b.shape.radius for b in grains])
+    points = share @ polygon
+    room = (np.linalg.norm(points[:, None] - places, axis=2) - radii).min(axis=1)
+    return tuple(points[room.argmax()]) if room.max() > 0 else None
+
+
+@pytest.mark.parametrize("place", range(3))
+def test_inletOfPoints(rigid, place):
     gas = rigid("settled", inletTo=1)
     gas.inletFrom, gas.inletTo = wallExtent()
-    polygons = [np.array(polygon) for polygon in gas.cells()["polygon"]]
-    target = max(range(len(polygons)), key=lambda c: polygons[c][:, 1].min())  # the highest: certainly not at the inlet wall
-    gas = rigid("settled", inletPoints=[tuple(polygons[target].mean(axis=0))])
+    cells = gas.cells()
+    # Between three grains: not at a wall.
+    triangles = [c for c, vertices in enumerate(cells["vertices"]) if min(vertices) >= 4]
+    points = {c: voidPoint(np.array(cells["polygon"][c])) for c in triangles}
+    inside = [c for c, point in points.items() if point]
+    target = inside[place * (len(inside) - 1) // 2]
+    gas = rigid("settled", inletPoints=[points[target]])
     cells = gas.cells()
     assert gas.inletPores == 1 and gas.inletWidth == 0
     assert cells["inlet"][target] and cells["phase"][target] == 1

@@ -28,7 +28,7 @@ def test_runThatDeforms(loadSample):
         return bits(), gas.events(), gas.levels(), gas.cells(), gas.volumes(), gas.brokenBonds()
 
     first, second = run(), run()
-    assert len(first[1]["throat"]) > 5 and len(first[5]) > 0
+    assert first[1]["throat"] and first[5]  # gas came in, bonds broke
     for a, b in zip(first, second):
         assert a == b
 

@@ -1,18 +1,20 @@
 """Saving and loading: nothing is lost, and a run that is taken up again goes on as if it had not been interrupted.
 
-Everything is compared to the last bit, the run after loading, too: YADE keeps the order of contacts in the file, so forces
-are summed in the same order (with one thread). A tolerance would hide what a fracturing sample amplifies anyway.
+Everything is compared to the last bit, the run after loading, too. A tolerance would hide what a fracturing sample
+amplifies anyway.
 """
 
 import math
 
 import numpy as np
 import pytest
-from yade import O, config
+from yade import O
 from yade.wrapper import (DiskMat, GasInvasionEngine, Ig2_Wall_Sphere_ScGeom6D, InteractionLoop, Ip2_DiskMat_DiskMat_CohFrictPhys,
                           Ip2_WallMat_DiskMat_CohFrictPhys, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, PoreNetworkEngine, WallMat, WallServoEngine)
 
+import restart
 from capfrac import injection, sediment
+from restart import reload
 
 STARTED = dict(start=130e3, increment=5e3, max=200e3, pores=3, minLevelSteps=20, maxLevelSteps=200, checkInvariants=True)
 
@@ -34,12 +36,6 @@ def attributesOf(thing):
 def reports(gas):
     return {"cells": gas.cells(), "throats": gas.throats(), "volumes": gas.volumes(), "events": gas.events(), "levels": gas.levels(),
             "forces": gas.fluidForces(), "broken": gas.brokenBonds(), "next": gas.nextEntryPressure(), "ledger": gas.gasLedger(), "history": gas.history()}
-
-
-def reload(tmp_path):
-    O.save(str(tmp_path / "scene.yade.gz"), quiet=True)
-    O.reset()
-    O.load(str(tmp_path / "scene.yade.gz"), quiet=True)
 
 
 #: The same sample under a rate, torn within the 2000 steps, too.
@@ -65,46 +61,23 @@ def test_stateIsTheSameToTheBit(loadSample, tmp_path, steps, supply):
         assert same(after[name], before[name]), name
 
 
-#: Debian's YADE is built with high-precision types; the one that scripts/bootstrap builds is not.
-PACKAGED = "COMPLEX_MP" in config.features
-
-
-def stepsWith(steps):
-    """Runs so many steps; after each: the contacts in the order in which YADE sums their forces, the grains, the gas engine's numbers."""
-    rows = []
-    for _ in range(steps):
-        O.step()
-        gas = sediment.engine("gas")
-        contacts = [(i.id1, i.id2) for i in O.interactions if i.isReal]
-        rows.append((contacts, [(tuple(b.state.pos), tuple(b.state.vel)) for b in O.bodies],
-                     (gas.gasPressure, gas.gasSaturation, gas.nEvents, gas.nRemeshes, gas.level, gas.rampDone, gas.reservoirMass)))
-    return rows
-
-
-@pytest.mark.parametrize("supply, cut", [({}, 300), ({}, 1100), (SUPPLIED, 300), (SUPPLIED, 600)],
-                         ids=["ramp-300", "ramp-1100", "rate-300", "rate-600"])
-def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path, cut, supply):
-    # YADE's collider starts anew with a loaded scene. The next contacts that it finds stand in another order in its
-    # list, in which forces are summed, and a sample that fractures amplifies the last digit: so the runs are compared
-    # for as long as that order is the same.
+# In the intact sample, while it is torn, and when it has been.
+@pytest.mark.parametrize("steps", [300, 600, 1200, 1600])
+@pytest.mark.parametrize("supply", [{}, SUPPLIED], ids=["ramp", "rate"])
+def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path, steps, supply):
     def run(interrupt):
         loadSample(1e-6)
         injection.startInjection(**STARTED, **supply)
-        sediment.advance(cut)
-        if interrupt:
-            before = reports(sediment.engine("gas"))
-            reload(tmp_path)
-            assert same(reports(sediment.engine("gas")), before)
-        return stepsWith(300)
+        sediment.advance(steps)
+        restart.cut(tmp_path, interrupt)
+        sediment.advance(2000 - steps)
+        gas = sediment.engine("gas")
+        return reports(gas), attributesOf(gas), [(tuple(b.state.pos), tuple(b.state.vel)) for b in O.bodies]
 
     whole, continued = run(False), run(True)
-    shared = next((k for k, (a, b) in enumerate(zip(whole, continued)) if a[0] != b[0]), len(whole))
-    assert shared >= 5
-    for k, (a, b) in enumerate(zip(whole[:shared], continued)):
-        if PACKAGED:  # Debian's YADE (other optimisation, assertions) differs in the last digits after loading
-            assert np.array(a[1]) == pytest.approx(np.array(b[1]), rel=1e-9, abs=1e-15) and a[2] == pytest.approx(b[2], rel=1e-9), k
-        else:
-            assert a == b, k
+    # Grains of 1-2 um under 8 kPa cannot bear what the ramp has come to, nor what the rate has, by far.
+    assert whole[0]["events"]["throat"] and whole[1]["nRemeshes"] > 0
+    assert same(continued, whole)
 
 
 def test_continuedImbibitionIsTheUninterruptedOne(loadSample, tmp_path):
@@ -113,25 +86,23 @@ def test_continuedImbibitionIsTheUninterruptedOne(loadSample, tmp_path):
     def run(interrupt):
         loadSample(1e-3)
         injection.startInjection(start=250, increment=0, max=251, pores=2, imbibition=True, snapOff=True, fluidDensity=1000, gravity=(0, -1.0), checkInvariants=True)
-        O.run(300, True)
+        sediment.advance(300)
         sediment.engine("gas").gasPressure = 60
-        O.run(300, True)
+        sediment.advance(300)
         gas = sediment.engine("gas")
-        assert gas.nReturns > 5 and any(gas.cells()["cutOff"]) and "snapOff" in gas.imbibitionEvents()["kind"]
-        if interrupt:
-            before = reports(gas), gas.imbibitionEvents()
-            reload(tmp_path)
-            gas = sediment.engine("gas")
-            assert same((reports(gas), gas.imbibitionEvents()), before)
+        assert gas.nReturns > 0 and any(gas.cells()["cutOff"]) and "snapOff" in gas.imbibitionEvents()["kind"]
+        before = reports(gas), gas.imbibitionEvents()
+        restart.cut(tmp_path, interrupt)
+        gas = sediment.engine("gas")
+        assert same((reports(gas), gas.imbibitionEvents()), before)
         for pressure in (30, 250):
             gas.gasPressure = pressure
-            O.run(300, True)
+            sediment.advance(300)
         assert "reopening" in gas.imbibitionEvents()["kind"]
         return reports(gas), gas.imbibitionEvents(), attributesOf(gas)
 
     whole, continued = run(False), run(True)
-    if not PACKAGED:
-        assert same(continued, whole)
+    assert same(continued, whole)
 
 
 @pytest.mark.parametrize("name, value", [("maxPressure", 300e3), ("checkInvariants", False), ("openingThreshold", 0.02), ("poreMode", "domain")])

@@ -11,15 +11,13 @@ import time
 from pathlib import Path
 
 import pytest
-from yade import O, config
+from yade import O
 
 from capfrac import sediment
 from capfrac.errors import RunFolderError
 from capfrac.lab import run as labrun
 from capfrac.lab.run import LabRun
 
-#: Debian's YADE differs in the last digits after loading (see tests/engine/test_save_load.py).
-PACKAGED = "COMPLEX_MP" in config.features
 PARAMETERS = {"grains": {"rMin": 1e-3, "seed": 1}, "fall": {"steps": 400}}
 STEPS, CHUNK = 400, 50
 
@@ -69,13 +67,6 @@ def bits():
     bodies = [(tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel), tuple(b.state.angMom)) for b in O.bodies]
     contacts = sorted((i.id1, i.id2, tuple(i.phys.normalForce), tuple(i.phys.shearForce), i.phys.cohesionBroken) for i in O.interactions if i.isReal)
     return bodies, contacts, [type(e).__name__ for e in O.engines], [e.label for e in O.engines], O.iter, O.dt, O.time
-
-
-def same(a, b):
-    """To the bit, or as near as Debian's YADE comes to it."""
-    if isinstance(a, (list, tuple)):
-        return len(a) == len(b) and all(map(same, a, b))
-    return a == pytest.approx(b, rel=1e-9, abs=1e-12) if PACKAGED and isinstance(a, float) else a == b
 
 
 def wholeRun(steps=STEPS):
@@ -154,7 +145,7 @@ def test_interruptedStageGoesOnFromItsLastCheckpoint(labFolder, everyTick, kille
     run.stage("place", mustNotRun)
     run.stage("fall", lambda: (began.append(O.iter), fall(run)))
     assert began == [killedAt]
-    assert same(run.data["height [m]"], height) and same(bits(), end)
+    assert run.data["height [m]"] == height and bits() == end
 
 
 def test_interruptionTwiceAndInTheFirstStage(labFolder, everyTick):
@@ -173,7 +164,7 @@ def test_interruptionTwiceAndInTheFirstStage(labFolder, everyTick):
             run.stage("all", lambda: both(run, killedAt))
         except Killed:
             pass
-    assert same(run.data["height [m]"], height) and same(bits(), end)
+    assert run.data["height [m]"] == height and bits() == end
 
 
 def test_betweenCheckpointsNothingIsSaved(labFolder, monkeypatch):
@@ -199,7 +190,7 @@ def test_ticksAndFolderDoNotChangeTheOrderOfCheckpoints(labFolder, monkeypatch, 
         run = takeUp(labFolder)
     run.stage("place", mustNotRun)
     run.stage("fall", lambda: fall(run))
-    assert same(run.data["height [m]"], height) and same(bits(), end)
+    assert run.data["height [m]"] == height and bits() == end
 
 
 def test_oneSceneIsKept(labFolder, everyTick):
@@ -237,7 +228,7 @@ def test_killedWithinACheckpoint(labFolder, monkeypatch, everyTick, moment):
     run = takeUp(labFolder)
     run.stage("place", mustNotRun)
     run.stage("fall", lambda: fall(run))
-    assert same(run.data["height [m]"], height) and same(bits(), end)
+    assert run.data["height [m]"] == height and bits() == end
     run.finish({"steps": O.iter})
     assert sorted(contents(labFolder)) == ["summary.json"]
 
@@ -276,7 +267,7 @@ def test_killedProcess(labFolder, everyTick, command, tmp_path):
     assert len(rows) >= 20
     # Its last checkpoint was in the middle of a stage, as at the end of one.
     height, end = wholeRun(CHUNK * len(rows))
-    assert same(rows, height) and same(seen, [end])
+    assert rows == height and seen == [end]
 
 
 def _count(folder):
@@ -344,8 +335,8 @@ def test_interruptedResultGoesOn(labFolder, everyTick, where):
         run.result("fall", lambda: work(True))
     run = takeUp(labFolder)
     assert run.result("before", mustNotRun) == 1
-    assert same(run.result("fall", lambda: work(False)), height)
-    assert same(seen, [end])
+    assert run.result("fall", lambda: work(False)) == height
+    assert seen == [end]
 
 
 @pytest.mark.parametrize("inFolder", [False, True])

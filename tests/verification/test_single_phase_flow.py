@@ -259,7 +259,7 @@ def test_waterIsKeptThroughRemeshing(loadSample):
     box.record("virgin")
     box.strainTo(0.05, spacing=0.005)
     engine = sediment.engine("flow")
-    assert engine.nRemeshes > 5
+    assert engine.nRemeshes > 0
     # Round-off of some 10^4 steps, each moving a share of the water.
     assert engine.volumes()["error"] < 1e-12 and abs(engine.massDefect) < 1e-12 * engine.initialWater
 
