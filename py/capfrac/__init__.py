@@ -27,18 +27,34 @@ from capfrac.errors import CapfracError, CaseError, SampleError, SceneError
 __all__ = ["CapfracError", "CaseError", "SampleError", "SceneError", "load_engines"]
 
 
-def load_engines():
+def load_engines(threads=None):
     """Add capfrac's classes to YADE. Needs YADE on ``sys.path``; done by ``import capfrac`` inside a YADE session.
 
-    Returns the module ``yade.wrapper``, which then holds the classes. Raises :class:`CapfracError` where the
-    engines were not built or YADE is not to be had in this interpreter.
+    ``threads``: how many YADE shall run on, whatever the environment says; with more than one the same seed gives
+    other results each time. They can be asked for once, before YADE is loaded; None is one, or what was asked for
+    before, or by ``-j`` of YADE's own program (see :mod:`capfrac.environment`). Returns the module ``yade.wrapper``,
+    which then holds the classes. Raises :class:`CapfracError` where the engines were not built, YADE is not to be had
+    in this interpreter, or was loaded for another number of threads.
     """
+    from capfrac import environment
+
+    if threads is not None:
+        environment.checkThreads(threads)
+    wrapper = _load(threads or 1)
+    environment.agree(threads)
+    return wrapper
+
+
+def _load(threads):
     import contextlib
     import importlib
     import io
 
+    from capfrac import environment
+
     try:
-        with contextlib.redirect_stdout(io.StringIO()):  # YADE greets on import; a program that uses it need not
+        # YADE greets on import; a program that uses it need not.
+        with environment.settled(threads), contextlib.redirect_stdout(io.StringIO()):
             importlib.import_module("yade")
         wrapper = importlib.import_module("yade.wrapper")
         importlib.import_module("capfrac._engines")
@@ -63,5 +79,17 @@ def _inside_yade():
     return "yade" in sys.modules and "yade.wrapper" in sys.modules
 
 
+def _loadIntoYade():
+    import warnings
+
+    from capfrac import environment
+
+    _load(1)
+    if environment.unasked():
+        warnings.warn(f"YADE was loaded for {environment.threadsInUse()} threads before capfrac, and the same seed gives "
+                      "other results each time; import capfrac first, or start Python with `capfrac python`",
+                      RuntimeWarning, stacklevel=3)
+
+
 if _inside_yade():
-    load_engines()
+    _loadIntoYade()

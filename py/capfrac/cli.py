@@ -2,9 +2,10 @@
 
 import argparse
 import os
+import signal
 import sys
 
-from capfrac import __version__
+from capfrac import __version__, environment
 from capfrac.errors import CapfracError
 
 
@@ -17,6 +18,7 @@ def _parser():
     inject.add_argument("case", help="a case file (TOML), or the name of a shipped case: see `capfrac cases`")
     inject.add_argument("-o", "--output", help="run folder (default: runs/<case>-seed<seed>)")
     inject.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a value of the case, e.g. -s grains.seed=7")
+    environment.addOption(inject, "threads of the run")
     inject.add_argument("--restart", action="store_true", help="discard an earlier run in the folder")
     inject.add_argument("-q", "--quiet", action="store_true", help="no progress, only the result")
     from capfrac.lab import command as lab
@@ -83,7 +85,8 @@ def _inject(arguments):
 
     progress = _Progress(case, arguments.quiet)
     try:
-        summary = inject(case, folder, restart=arguments.restart, report=progress.report, bar=progress.bar)
+        summary = inject(case, folder, restart=arguments.restart, report=progress.report, bar=progress.bar,
+                         threads=arguments.threads)
     except KeyboardInterrupt:
         progress.close()
         print(f"\ninterrupted; the same command takes the run up again from {folder}", file=sys.stderr)
@@ -107,26 +110,49 @@ def _cases():
 
 
 def _yade(arguments):
-    import glob
+    import importlib.util
+    import runpy
 
-    from yade import config
+    # Read from its config, not from PATH: the YADE that the engines were built for. An import would load all of YADE.
+    yade = importlib.util.find_spec("yade")
+    if not (yade and yade.origin):
+        raise CapfracError("YADE is not to be found; start the command by its launcher, which knows where it is")
+    config = runpy.run_path(os.path.join(os.path.dirname(yade.origin), "config.py"))
+    program = os.path.join(config["prefix"], "bin", f"yade{config['suffix']}")
+    if not os.path.exists(program):
+        raise CapfracError(f"there is no {program}")
+    os.execve(program, [program, *arguments], environment.forUser("yade"))  # replaces this process
 
-    # Read from config, not from PATH: the YADE that the engines were built for.
-    found = sorted(glob.glob(os.path.join(config.prefix, "bin", f"yade{config.suffix}")))
-    if not found:
-        raise CapfracError(f"there is no yade{config.suffix} in {config.prefix}/bin")
-    os.execv(found[0], [found[0], *arguments])  # replaces this process
+
+def _python(arguments):
+    os.execve(sys.executable, [sys.executable, "-P", *arguments], environment.forUser("python"))
+
+
+def _askedThreads(argv):
+    """What ``--threads`` says, before it is parsed: the parser imports libraries that may read the number."""
+    for text, value in zip(argv, [*argv[1:], ""]):
+        name, equals, rest = text.partition("=")
+        if name == "--threads" and (rest if equals else value).isdecimal():
+            return min(max(int(rest if equals else value), 1), environment.MOST_THREADS)
+    return 1
+
+
+def _interrupt(*_):
+    raise KeyboardInterrupt
 
 
 def main(argv=None):
     """Run the command; returns its exit status (see the module)."""
     argv = sys.argv[1:] if argv is None else list(argv)
+    environment.settle(os.environ, _askedThreads(argv))
     # Their arguments belong to other programs: argparse must not see them.
-    passed = {"python": lambda rest: os.execv(sys.executable, [sys.executable, *rest]), "yade": _yade}.get(argv[0] if argv else "")
+    passed = {"python": _python, "yade": _yade}.get(argv[0] if argv else "")
     arguments = None if passed else _parser().parse_args(argv)
     try:
         if passed:
             return passed(argv[1:])
+        environment.checkThreads(getattr(arguments, "threads", 1))
+        signal.signal(signal.SIGTERM, _interrupt)  # as batch systems end their jobs
         if arguments.command == "inject":
             return _inject(arguments)
         if arguments.command == "lab":

@@ -17,7 +17,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from capfrac import casescene, export, figures, fracture, history, mode, namedfiles, sediment, snapshot
+from capfrac import casescene, environment, export, figures, fracture, history, mode, namedfiles, sediment, snapshot
 from capfrac.case import readCase, resolveCase
 from capfrac.casepacking import checkPacking
 from capfrac.errors import CapfracError, RunFolderError, SceneError
@@ -55,6 +55,7 @@ class Run:
             self._forgetLaterSnapshots()
             self.start = snapshot.load(self.folder.sub("snapshots") / "start.npz")
             self.begun = True
+            self.folder.writeSummary(threads=environment.most(self.folder.summary))
             return
         nBonds = casescene.makeSample(self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}"))
         self.gas = casescene.startGas(self.case)
@@ -62,7 +63,8 @@ class Run:
         throats = [p for p in self.gas.throats()["entryPressure"] if p > 0]
         bonded = sum(1 for i in O.interactions if i.isReal and not i.phys.cohesionBroken)
         self.folder.writeSummary(
-            state="running", title=self.case["case"]["title"], versions=versions(), parameters=self.case, snapshots=[],
+            state="running", title=self.case["case"]["title"], versions=versions(), threads=environment.threadsInUse(),
+            parameters=self.case, snapshots=[],
             sample={"grains": len(O.bodies) - 4, "boxWidth [m]": sediment.boxSize()[0], "boxHeight [m]": sediment.boxSize()[1], "stress [Pa]": list(sediment.engine("servo").stress),
                     "porosity": self.gas.volumes()["void"] / math.prod(sediment.boxSize()), "bondsSet": nBonds, "bondsHolding": bonded,
                     "rattlers": len(self.gas.rattlers), "throatEntryPressureMin [Pa]": min(throats), "throatEntryPressureMax [Pa]": max(throats),
@@ -104,6 +106,7 @@ class Run:
             O.reset()
             raise RunFolderError(f"the checkpoint {self.folder.checkpoint} cannot be read ({problem or type(problem).__name__}): damaged, or of "
                                  "another version of capfrac or YADE; --restart discards the run") from None
+        environment.adoptScene()
         self.gas = sediment.engine("gas")
 
     def _forgetLaterSnapshots(self):
@@ -307,7 +310,8 @@ def versions():
             "numpy": np.__version__, "machine": platform.machine()}
 
 
-def inject(case, folder, restart=False, report=print, bar=lambda pressure, saturation: None, replaceScene=False):
+def inject(case, folder, restart=False, report=print, bar=lambda pressure, saturation: None, replaceScene=False,
+           threads=None):
     """Run a case into a run folder and return its summary (a dict, the content of summary.json).
 
     ``case``: a name of a shipped case, a path, a resolved case, or a dict of sections, which stays as it is. A folder
@@ -315,11 +319,12 @@ def inject(case, folder, restart=False, report=print, bar=lambda pressure, satur
     is.
     ``report(text)`` and ``bar(pressure [Pa], saturation)`` show progress. Interrupted (Ctrl-C), the run folder is left
     usable and the interruption goes on to the caller. In a session with bodies in the scene, ``replaceScene`` says that
-    they may go; :class:`SceneError` otherwise. Errors name the key, body or file at fault.
+    they may go; :class:`SceneError` otherwise. ``threads``: see :func:`capfrac.load_engines`. Errors name the key, body
+    or file at fault.
     """
     import capfrac
 
-    capfrac.load_engines()
+    capfrac.load_engines(threads)
     from yade import O
 
     case = resolveCase(case) if isinstance(case, dict) else readCase(case)

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from capfrac import environment
 from capfrac.errors import CapfracError, CaseError
 
 #: Where the gas comes in: along the bottom, or in the middle.
@@ -194,7 +195,8 @@ def _checkInlet(inlet):
 
 def _kernels():
     try:
-        from capfrac import _kernels
+        with environment.settled():  # it loads OpenMP
+            from capfrac import _kernels
     except ImportError as problem:
         raise CapfracError(f"capfrac's kernels cannot be loaded ({problem}); start Python with `capfrac python`") from problem
     return _kernels

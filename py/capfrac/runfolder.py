@@ -86,7 +86,7 @@ def readSummary(folder):
 
 @contextmanager
 def holdingInterrupts():
-    """Let Ctrl-C wait until the block is left: saving and loading a scene must be done whole.
+    """Let Ctrl-C and TERM wait until the block is left: saving and loading a scene must be done whole.
 
     (YADE runs Python commands while it loads, and turns an interruption there into an error of its own.)
     """
@@ -94,13 +94,18 @@ def holdingInterrupts():
         yield
         return
     waiting = []
-    before = signal.signal(signal.SIGINT, lambda *arguments: waiting.append(arguments))
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    for number, handler in before.items():
+        if callable(handler):  # what ends the process, or is ignored, stays so
+            signal.signal(number, lambda *arguments: waiting.append(arguments))
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, before)
-    if waiting and callable(before):
-        before(*waiting[0])
+        for number, handler in before.items():
+            if callable(handler):
+                signal.signal(number, handler)
+    if waiting:
+        before[waiting[0][0]](*waiting[0])
 
 
 def putInPlace(aside, target, write):

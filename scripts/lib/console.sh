@@ -11,6 +11,52 @@ make_cache() {
 	mkdir -p "$CAPFRAC_CACHE" 2>/dev/null || die "the cache folder $CAPFRAC_CACHE cannot be written; set CAPFRAC_CACHE to one that can"
 }
 
+# Ctrl-C and TERM: what runs is stopped, too, and one sentence says how to go on. Exit status 130, as that of capfrac.
+attended_process=''
+interrupted() {
+	local signal=$1
+	trap '' INT TERM
+	if [[ -n $attended_process ]]; then
+		# Ctrl-C in a terminal has reached it already; a second one would disturb what it saves.
+		[[ $signal != INT ]] || attended_ends_within 2 || true
+		kill -"$signal" "$attended_process" 2>/dev/null || true
+		attended_ends_within 70 || kill -KILL "$attended_process" 2>/dev/null || true
+	fi
+	[[ ! -t 2 ]] || printf '\n' >&2
+	warn "interrupted; the same command ($0) goes on where it stopped"
+	exit 130
+}
+attended_ends_within() {
+	local tries=$(($1 * 10))
+	while kill -0 "$attended_process" 2>/dev/null; do
+		((tries-- > 0)) || return 1
+		sleep 0.1
+	done
+}
+trap 'interrupted INT' INT
+trap 'interrupted TERM' TERM
+
+# attended COMMAND...: runs a program so that a signal is answered at once, not when the program has ended.
+attended() {
+	local status=0
+	env --default-signal=INT "$@" <&0 & # the shell has what runs in the background ignore Ctrl-C
+	attended_process=$!
+	wait "$attended_process" || status=$?
+	attended_process=''
+	return $status
+}
+
+# open_to_all FOLDER: whether every user may enter it.
+open_to_all() {
+	local folder
+	folder=$(readlink -f "$1")
+	while :; do
+		(($(stat -c %a "$folder") % 2)) || return 1
+		[[ $folder != / ]] || return 0
+		folder=$(dirname "$folder")
+	done
+}
+
 minutes() { printf '%d min %02d s' $(($1 / 60)) $(($1 % 60)); }
 
 # show_progress LABEL: reads a build's output and turns "[done/total]" and
@@ -41,10 +87,15 @@ show_progress() {
 # run_logged LOG LABEL COMMAND...: runs a build command, its whole output in
 # LOG, progress on the console; on failure shows the end of the log and stops.
 run_logged() {
-	local log=$1 label=$2
+	local log=$1 label=$2 status=0 reader
 	shift 2
 	mkdir -p "$(dirname "$log")"
-	if ! "$@" 2>&1 | tee "$log" | show_progress "$label"; then
+	exec 3> >(tee "$log" | show_progress "$label")
+	reader=$!
+	attended sh -c 'exec "$@" >&3 2>&1' sh "$@" || status=$?
+	exec 3>&-
+	wait "$reader" || true # until all is shown
+	if ((status)); then
 		tail -n 30 "$log" >&2
 		die "$label failed; the whole output is in $log"
 	fi

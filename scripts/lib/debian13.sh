@@ -3,7 +3,7 @@
 
 # Everything that mounts runs under here: mounts and processes are its own and are gone when it ends, however it ends,
 # so that neither Ctrl-C nor `rm` of the folder can ever meet this machine's /dev or /proc.
-apart() { unshare --mount --pid --fork --kill-child --mount-proc "$@"; }
+apart() { attended unshare --mount --pid --fork --kill-child --mount-proc "$@"; }
 
 require_debian13_host() {
 	((EUID == 0)) || die "a Debian 13 beside this system can be set up by root only (debootstrap, chroot);

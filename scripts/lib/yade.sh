@@ -1,7 +1,8 @@
 # Finds a YADE that capfrac can be compiled against, or builds a minimal one.
-# Sourced, never run. Sets YADE_PREFIX (the host's installation) and
-# YADE_SOURCE_DIR (headers of exactly the same version).
+# Sourced, never run. Sets YADE_PREFIX (the host's installation), YADE_SOURCE_DIR
+# (headers of exactly the same version) and YADE_BUILT_HERE (ON where it is our build).
 
+YADE_BUILT_HERE=OFF
 SYSTEM_PATH=/usr/sbin:/usr/bin:/sbin:/bin
 YADE_VERSION=2025.2.0
 YADE_TARBALL=yade_$YADE_VERSION.orig.tar.bz2
@@ -79,7 +80,7 @@ build_yade() {
 	local key build prefix
 	key=$(yade_cache_key)
 	build=$CAPFRAC_CACHE/$key-build prefix=$CAPFRAC_CACHE/$key
-	YADE_PREFIX=$prefix
+	YADE_PREFIX=$prefix YADE_BUILT_HERE=ON
 	if [[ -f $prefix/.complete ]]; then
 		say "using YADE $YADE_VERSION from $prefix"
 		return 0

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from capfrac import keys, namedfiles, tomlfiles
+from capfrac import environment, keys, namedfiles, tomlfiles
 from capfrac.errors import CaseError
 from capfrac.lab import parameters, reports
 from capfrac.lab.run import LabRun
@@ -36,15 +36,15 @@ TITLES = {
 }
 
 
-def runTest(test, values, folder=None, restart=False, report=lambda text: None, base="."):
+def runTest(test, values, folder=None, restart=False, report=lambda text: None, base=".", threads=None):
     """Run a test by name with resolved parameters (see :func:`parameters.resolve`); returns its results (a dict).
 
     ``folder``: the run folder, or None; ``base``: where the paths of files in the parameters begin. An unfinished run in the
-    folder is taken up; a finished one is returned as it is.
+    folder is taken up; a finished one is returned as it is. ``threads``: see :func:`capfrac.load_engines`.
     """
     import capfrac
 
-    capfrac.load_engines()
+    capfrac.load_engines(threads)
     from yade import O
 
     sample = parameters.sedimentOf({**_defaults("settle")["grains"], **values["grains"]}, base)
@@ -80,6 +80,7 @@ def addParser(commands):
         test.add_argument("-o", "--output", help=f"run folder (default: runs/lab-{name})")
         test.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a parameter, e.g. -s grains.count=500")
         test.add_argument("--keys", action="store_true", help="list every parameter with its unit, default and meaning")
+        environment.addOption(test, "threads of the test")
         test.add_argument("--restart", action="store_true", help="discard an earlier run in the folder")
         test.add_argument("-q", "--quiet", action="store_true", help="no progress, only the result")
 
@@ -101,7 +102,7 @@ def main(arguments):
     values = parameters.resolve(test, raw, arguments.file or "arguments")
     folder = arguments.output or f"runs/lab-{test}"
     try:
-        results = runTest(test, values, folder, arguments.restart, _reporter(arguments.quiet), base)
+        results = runTest(test, values, folder, arguments.restart, _reporter(arguments.quiet), base, arguments.threads)
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command takes the test up again from {folder}", file=sys.stderr)
         return 130

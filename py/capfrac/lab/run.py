@@ -20,6 +20,7 @@ run is not finished ``state.json`` with the scene of the last checkpoint in ``sc
 
 import json
 
+from capfrac import environment
 from capfrac.errors import RunFolderError
 from capfrac.runfolder import RunFolder, holdingInterrupts
 
@@ -59,7 +60,8 @@ class LabRun:
                 from capfrac.injection import versions
 
                 del parameters["test"]
-                self.folder.writeSummary(state="running", test=test, parameters=parameters, versions=versions())
+                self.folder.writeSummary(state="running", test=test, parameters=parameters, versions=versions(),
+                                         threads=environment.most(self.folder.summary))
 
     @property
     def finished(self):
@@ -98,6 +100,7 @@ class LabRun:
             O.reset()
             raise RunFolderError(f"the checkpoint {path} cannot be read ({problem or type(problem).__name__}): damaged, or of another version; "
                                  "--restart discards the run") from None
+        environment.adoptScene()
         self._pending = False
 
     def stage(self, name, work):

@@ -1,8 +1,8 @@
 """``capfrac sweep``: sweeps from the command line."""
 
-import signal
 import sys
 
+from capfrac import environment
 from capfrac.errors import CaseError
 from capfrac.sweep import figures
 from capfrac.sweep.run import asTime, runSweep
@@ -20,6 +20,7 @@ def addParser(commands):
     sweep.add_argument("sweep", help="a sweep file (TOML), or the name of a shipped sweep")
     sweep.add_argument("-o", "--output", help="folder of the sweep (default: runs/<sweep>)")
     sweep.add_argument("-j", "--processes", type=int, default=1, help="points that run at the same time, each on one core (default 1)")
+    environment.addOption(sweep, "threads of each point")
     sweep.add_argument("-n", "--points", type=int, help="only the first so many points; every beginning of the list is a useful map")
     sweep.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a value of [set], e.g. -s grains.count=200")
     sweep.add_argument("--retry", action="store_true", help="run points that failed once more")
@@ -39,9 +40,9 @@ def main(arguments):
             print(point.command(folder))
         return 0
     report = (lambda text: None) if arguments.quiet else lambda text: print(text, file=sys.stderr, flush=True)
-    signal.signal(signal.SIGTERM, _interrupt)  # as batch systems end their jobs
     try:
-        result = runSweep(sweep, folder, arguments.processes, arguments.points, arguments.retry, report)
+        result = runSweep(sweep, folder, arguments.processes, arguments.points, arguments.retry, report,
+                          threads=arguments.threads)
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command goes on with the sweep in {folder}", file=sys.stderr)
         return 130
@@ -59,7 +60,3 @@ def _printFailures(failures):
     if failures:
         more = f"and {len(failures) - _SHOWN} more; see the table. " if len(failures) > _SHOWN else ""
         print(f"{more}With --retry the same command runs {'them' if len(failures) > 1 else 'it'} once more")
-
-
-def _interrupt(*_):
-    raise KeyboardInterrupt

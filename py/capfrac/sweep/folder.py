@@ -56,6 +56,11 @@ class SweepFolder:
         """Let others at the folder."""
         self._lock.close()
 
+    @property
+    def stop(self):
+        """Path of the file that has the points stop (see :mod:`capfrac.sweep.execution`)."""
+        return self.path / ".stop"
+
     def run(self, point):
         """Run folder of a point."""
         return self.path / "points" / point.name

@@ -38,6 +38,7 @@ RESULTS = {
     "iterations [-]": lambda s: s["results"]["iterations"],
     "upperBounds": lambda s: " ".join(s["results"].get("upperBounds", ())),
     "warnings": lambda s: "; ".join(s.get("warnings", ())),
+    "threads [-]": lambda s: s.get("threads"),
     "cpuSeconds [s]": lambda s: s["cpuSeconds"],
     "capfrac": lambda s: s["versions"]["capfrac"],
     "yade": lambda s: s["versions"]["yade"],

@@ -20,11 +20,12 @@ def dieWith(parent):
 
 
 def main():
-    """``parent's id, run folder, key, case, override, ...`` as arguments: run it. Exit status as of ``capfrac``.
+    """Run the point that the arguments say: ``parent's id, run folder, key, threads, case, override, ...``.
 
-    The key tells a case that is another one than when the sweep began: a file of it was changed meanwhile.
+    The key tells a case that is another one than when the sweep began: a file of it was changed meanwhile. Exit status
+    as that of the command ``capfrac``.
     """
-    parent, folder, key, base, *overrides = sys.argv[1:]
+    parent, folder, key, threads, base, *overrides = sys.argv[1:]
     dieWith(int(parent))
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a sweep in the background of a script hands an ignored one on
     from capfrac.case import readCase
@@ -37,7 +38,7 @@ def main():
         case = readCase(base, overrides)
         if caseKey(case, digests(case, case["case"]["folder"])) != key:
             raise CaseError(f"the case {base} or a file that it names was changed since the sweep began")
-        inject(case, folder, report=lambda text: None)
+        inject(case, folder, report=lambda text: None, threads=int(threads))
     except CapfracError as problem:
         print(problem, file=sys.stderr)
         sys.exit(1)
