@@ -16,8 +16,11 @@ SAMPLE = Sediment(grainCount=40, rMin=1e-2, shearStiffness=4e6, seed=1)
 @pytest.mark.parametrize("bulkModulus", [1e7, 2.2e9, math.inf])
 def test_undrainedStableNeverGainsEnergy(bulkModulus):
     found = stability.shake(SAMPLE, bulkModulus, steps=3000)
-    # Energy of a leapfrog swings by (omega dt)^2/8, some per cent at this time step, about the one that it keeps; friction and the fluid only take.
-    assert found["end"] == "bounded" and max(found["energy"]) < 1.05 and max(found["ledger"]) < 1e-13
+    # What a leapfrog keeps is the energy of the velocities before and after, multiplied. With one of them alone it is off
+    # by dt F v/2, at most omega dt/2 of it, with omega dt <= 0.3 sqrt(2 z) and z <= 6 contacts; at random, so that a mean
+    # is not. Friction and the fluid only take.
+    assert found["end"] == "bounded" and max(found["energy"]) < 1.5 and max(found["ledger"]) < 1e-13
+    assert np.mean(found["energy"][-50:]) < 1.05
     assert max(found["pressure"]) > 1e3  # the water bears load
 
 
