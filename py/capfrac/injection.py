@@ -272,8 +272,8 @@ class Run:
         self.folder.writeLogs(gas, levels)
         modes = self.modes()
         saturation = {f"capillaryPressureAt{share:.0%} [Pa]": next(
-            (p - gas.waterPressure for p, s in zip(levels["pressure"], levels["gasSaturation"]) if s >= share), None)
-            for share in (0.5, 0.9, 0.97)}
+            (p - gas.waterPressure for p, s, done in zip(levels["pressure"], levels["gasSaturation"], levels["finished"])
+             if s >= share and done), None) for share in (0.5, 0.9, 0.97)}
         bounds = self.upperBounds({**{name: modes["mode"][name] for name in ("initiationPressure", "breakthroughPressure")},
                                    **saturation})
         pictures = self.case["output"]["pictures"] != "none"
