@@ -268,8 +268,8 @@ class Run:
         last = self.picture("end")
         moved = np.hypot(*last.displacement.T) / last.r
         gas = self.gas
-        levels = history.levelsToTheEnd(gas, last)
-        self.folder.writeLogs(gas, levels)
+        levels, course = history.levelsToTheEnd(gas, last), history.courseToTheEnd(gas, last)
+        self.folder.writeLogs(gas, levels, course)
         modes = self.modes()
         saturation = {f"capillaryPressureAt{share:.0%} [Pa]": next(
             (p - gas.waterPressure for p, s, done in zip(levels["pressure"], levels["gasSaturation"], levels["finished"])
@@ -287,7 +287,6 @@ class Run:
             "largestDisplacementAtEnd [r]": modes["modeAtEnd"]["largestDisplacement"], "remeshes": gas.nRemeshes,
             "forceNetwork": mode.forceNetworkChange(self.start, last),
             "ledger [m^3]": dict(gas.volumes()), "iterations": last.iteration}
-        course = gas.history()
         if pictures:
             history.drawHistory(course, self.folder.path / "history.png", events=gas.events(), breakthroughIter=gas.breakthroughIter,
                                 startTime=self.folder.summary["sample"]["startTime [s]"], waterPressure=gas.waterPressure, title=self.case["case"]["title"])

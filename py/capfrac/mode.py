@@ -28,17 +28,17 @@ from capfrac.fracture.report import readEvents
 #: Room: were every contact around the gas widened by 0.01 mean radii, from where on a throat has opened, the region would grow by 1 % of
 #: its area, a twentieth of its void.
 RIGID_WAY, OPENED_WAY, STRETCHED_ROOM, UNMOVED = 0.5, 0.75, 0.05, 0.1
-#: Without a throat on the way: the share of the gas in room that grains made from which on most of the gas stands there [-].
+#: Share of the gas in room that grains made from which on the way does not matter: most of the gas stands there [-].
 MOST_ROOM = 0.5
 #: Bounds of the older rule; see :func:`classifyByThroats`.
 FEW_OPENED, MOST_OPENED, RIGID_DISPLACEMENT, OPEN_DISPLACEMENT = 0.1, 0.5, 0.1, 1.0
 
 RULE = (
-    f"fracture: grains have opened at least {OPENED_WAY:.0%} of the throats on the way of the gas from the inlet to the outlet that passes the "
-    f"fewest unopened ones, and more than {STRETCHED_ROOM:.0%} of the gas stands in room that grains made; or that way passes no throat at all, "
-    f"and at least {MOST_ROOM:.0%} of the gas stands in such room. "
+    f"fracture: at least {MOST_ROOM:.0%} of the gas stands in room that grains made; or grains have opened at least {OPENED_WAY:.0%} of the "
+    "throats on the way of the gas from the inlet to the outlet that passes the fewest unopened ones, and more than "
+    f"{STRETCHED_ROOM:.0%} of the gas stands in such room. "
     f"capillary: at most {RIGID_WAY:.0%} of the throats on that way have been opened, at most {STRETCHED_ROOM:.0%} of the gas stands in room "
-    f"that grains made, and nine tenths of the grains that bore load have moved by at most {UNMOVED:g} of their radius. "
+    f"that grains made, and nine tenths of the grains that bear load have moved by at most {UNMOVED:g} of their radius. "
     "none: no pore was invaded, and no more room made than that. mixed: all else."
 )
 RULE_BY_THROATS = (
@@ -80,9 +80,8 @@ def classify(openedOnWay, rigidOnWay, madeRoom, displacement90, invadedThroats):
     if invadedThroats == 0 and madeRoom <= STRETCHED_ROOM:
         return "none"
     throats = openedOnWay + rigidOnWay
-    if madeRoom > STRETCHED_ROOM if throats else madeRoom >= MOST_ROOM:
-        if openedOnWay >= OPENED_WAY * throats:
-            return "fracture"
+    if madeRoom >= MOST_ROOM or throats > 0 and openedOnWay >= OPENED_WAY * throats and madeRoom > STRETCHED_ROOM:
+        return "fracture"
     if openedOnWay <= RIGID_WAY * throats and madeRoom <= STRETCHED_ROOM and displacement90 <= UNMOVED:
         return "capillary"
     return "mixed"

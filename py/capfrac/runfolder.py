@@ -237,9 +237,9 @@ class RunFolder:
 
         self.writeWhole(name, write)
 
-    def writeLogs(self, gas, levels=None):
-        """Write events.csv, pc_saturation.csv and history.csv from the engine's logs; ``levels``: those of a run that has ended."""
-        e, levels, history = gas.events(), levels or gas.levels(), gas.history()
+    def writeLogs(self, gas, levels=None, history=None):
+        """Write events.csv, pc_saturation.csv and history.csv from the engine's logs; ``levels`` and ``history``: those of a run that has ended."""
+        e, levels, history = gas.events(), levels or gas.levels(), history or gas.history()
         self.writeTable("events.csv", {
             "event": list(range(1, len(e["time"]) + 1)), "time [s]": e["time"], "iteration": e["iteration"], "level": e["level"],
             "capillaryPressure [Pa]": [p - gas.waterPressure for p in e["gasPressure"]],

@@ -156,7 +156,7 @@ def test_gasThatLiftsTheSedimentIsAFracture():
 @pytest.mark.parametrize("opened, rigid, room, moved, entered, name", [
     (9, 3, 0.051, 0, 9, "fracture"), (8, 3, 0.051, 0, 9, "mixed"), (9, 3, 0.05, 0, 9, "mixed"), (6, 6, 0.05, 0.1, 9, "capillary"),
     (7, 6, 0.05, 0.1, 9, "mixed"), (6, 6, 0.051, 0.1, 9, "mixed"), (6, 6, 0.05, 0.11, 9, "mixed"), (0, 9, -0.2, 0, 9, "capillary"),
-    (0, 0, 0.5, 9, 9, "fracture"), (0, 0, 0.49, 9, 9, "mixed"), (0, 0, 0.0, 0, 9, "capillary"), (0, 0, 0.05, 9, 0, "none"), (0, 0, 0.5, 9, 0, "fracture")])
+    (0, 0, 0.5, 9, 9, "fracture"), (0, 0, 0.49, 9, 9, "mixed"), (0, 9, 0.5, 0, 9, "fracture"), (0, 9, 0.49, 0, 9, "mixed"), (0, 0, 0.0, 0, 9, "capillary"), (0, 0, 0.05, 9, 0, "none"), (0, 0, 0.5, 9, 0, "fracture")])
 def test_boundsOfTheRule(opened, rigid, room, moved, entered, name):
     assert mode.classify(opened, rigid, room, moved, entered) == name
 
@@ -250,3 +250,88 @@ def test_foldersThatAreNoRuns(tmp_path, folder):
     with pytest.raises(RunFolderError, match="has no snapshots 'start' and 'end' of a run"):
         mode.modesOfRun(path)
     assert mode.modesOfRun(path, now=lattice(CRACK))["mode"].moment == "checkpoint"
+
+
+# --- runs -----------------------------------------------------------------------------------------
+
+QUIET = {"pictures": "none", "fields": False}
+#: Runs that end without a level, by coming apart; within a level, by time; and at the rest after a breakthrough.
+RUNS = {
+    "apart": {"grains": {"count": 40, "rMin": 4e-6}, "stress": {"vertical": 2e3, "horizontal": 1e3}, "inlet": {"pores": 2}, "gas": {"law": "ideal"},
+              "supply": {"control": "rate", "rate": 2e-6, "reservoirVolume": 1e-9}, "ramp": {"start": 5e3, "increment": 500.0, "max": 120e3, "maxExtension": 0.1},
+              "output": QUIET},
+    "time": {"grains": {"count": 60, "rMin": 1e-6}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "inlet": {"pores": 3}, "supply": {"maxTime": 2e-6},
+             "ramp": {"start": 100e3, "increment": 1e3, "max": 215e3, "invasionInterval": 50}, "output": QUIET},
+    "rest": {"grains": {"count": 60, "rMin": 1e-3}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "cohesion": {"chi": 10.0}, "inlet": {"pores": 3},
+             "ramp": {"start": 120.0, "increment": 4.0, "max": 240.0, "invasionInterval": 50, "endAt": "rest"}, "output": QUIET},
+}
+
+
+@pytest.fixture(scope="module", params=RUNS)
+def run(request, tmp_path_factory):
+    """Name, run folder and summary of a run."""
+    from yade import O
+
+    from capfrac.injection import inject
+
+    O.reset()
+    folder = tmp_path_factory.mktemp("runs") / request.param
+    return request.param, folder, inject({name: dict(section) for name, section in RUNS[request.param].items()}, folder, report=lambda text: None)
+
+
+def lastRow(path):
+    with open(path, newline="") as stream:
+        return list(csv.DictReader(stream))[-1]
+
+
+def test_allOfASummaryIsOfItsLastState(run):
+    name, folder, summary = run
+    last, books, mode = summary["snapshots"][-1], summary["results"]["ledger [m^3]"], summary["mode"]
+    assert last["name"] == "end" and summary["modeAtEnd"]["iteration"] == last["iteration"] == summary["results"]["iterations"]
+    assert mode["finalSaturation"] == summary["modeAtEnd"]["gasSaturation"] == last["gasSaturation"] == pytest.approx(books["gas"] / books["void"], rel=1e-12)
+    assert mode["moment"] == {"apart": "end", "time": "end", "rest": "rest"}[name] and (name == "rest") == (summary["modeAtBreakthrough"] is not None)
+    for section in (mode, summary["modeAtEnd"], summary["modeAtBreakthrough"] or mode):
+        assert 0 <= section["medianDisplacement"] <= section["displacement90"] and section["medianDisplacement"] <= section["largestDisplacement"]
+    assert summary["results"]["largestDisplacementAtEnd [r]"] == summary["modeAtEnd"]["largestDisplacement"] <= summary["results"]["displacementWithRattlersAtEnd [r]"]
+    if name == "apart":
+        assert "came apart" in summary["ended"] and mode["mode"] == "fracture" and mode["medianDisplacement"] > 0.1
+
+
+def test_logsReachToTheEnd(run):
+    _, folder, summary = run
+    end = summary["modeAtEnd"]
+    course, level = lastRow(folder / "history.csv"), lastRow(folder / "pc_saturation.csv")
+    assert (float(course["gasSaturation"]), int(course["iteration"]), int(course["brokenBonds"])) == (end["gasSaturation"], end["iteration"], end["brokenBonds"])
+    assert float(course["capillaryPressure [Pa]"]) == end["capillaryPressure"]
+    if level["finished"] == "0":
+        assert (float(level["gasSaturation"]), int(level["iteration"]), level["atRest"]) == (end["gasSaturation"], end["iteration"], "0")
+        assert float(level["displacementWithRattlers [r]"]) == summary["results"]["displacementWithRattlersAtEnd [r]"]
+
+
+def test_folderAndTableSayTheSame(run):
+    from types import SimpleNamespace
+
+    from capfrac.sweep import table
+
+    _, folder, summary = run
+    stored = json.loads((folder / "summary.json").read_text())
+    assert json.loads(json.dumps(stored)) == stored and stored["mode"] == summary["mode"]
+    for name, found in mode.modesOfRun(folder).items():
+        expected = found and {key: None if isinstance(value, float) and math.isnan(value) else value for key, value in asdict(found).items()}
+        assert stored[name] == expected
+    line = table.row(SimpleNamespace(name="point", values={}), {}, "finished", stored, folder)
+    assert line["mode"] == stored["mode"]["mode"] and line["medianDisplacement [r]"] == stored["mode"]["medianDisplacement"]
+    assert line["displacement [r]"] == stored["mode"]["largestDisplacement"] and line["gasSaturation [-]"] == stored["snapshots"][-1]["gasSaturation"]
+    assert line["endPressure [Pa]"] == stored["snapshots"][-1]["capillaryPressure [Pa]"] and line["madeRoom [-]"] == stored["mode"]["madeRoom"]
+
+
+def test_breakthroughIsThatOfTheStep(run):
+    name, folder, summary = run
+    if name != "rest":
+        pytest.skip("no breakthrough")
+    entry = next(entry for entry in summary["snapshots"] if entry["name"] == "breakthrough")
+    log = lastRow(folder / "events.csv")
+    with open(folder / "events.csv", newline="") as stream:
+        before = [row for row in csv.DictReader(stream) if int(row["iteration"]) < entry["iteration"]]
+    assert int(before[-1]["iteration"]) == entry["iteration"] - 1 and float(before[-1]["capillaryPressure [Pa]"]) == summary["mode"]["breakthroughPressure"]
+    assert snapshot.load(folder / "snapshots" / "breakthrough.npz").iteration == entry["iteration"] <= int(log["iteration"]) + 1

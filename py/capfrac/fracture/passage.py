@@ -78,6 +78,17 @@ def findPassage(now, start, outlet="top", openingThreshold=0.01):
     return Passage(edges, kinds, through, *ways, madeRoom(now, start))
 
 
+def gasOfTheInlet(now):
+    """(c,) bool: cells of gas that hang on the inlet, through whatever edges."""
+    edges, gas = np.flatnonzero(gasOnBothSides(now)), np.flatnonzero(now.gasCells)
+    row = np.full(len(now.cellPhase), -1)
+    row[gas] = np.arange(len(gas))
+    graph = _Graph(len(gas), row[now.throatCells[edges]], np.full(len(edges), PORE))
+    found = np.zeros(len(now.cellPhase), dtype=bool)
+    found[gas[graph.reached(inletNodes(now, cellCentres(now, gas)))]] = True
+    return found
+
+
 def gasOnBothSides(now):
     """(t,) bool: edges of the snapshot between two cells of gas."""
     return np.all(now.throatCells >= 0, axis=1) & np.all(now.gasCells[now.throatCells], axis=1)

@@ -136,7 +136,7 @@ def readEvents(path, integers=()):
 def reportRun(path, openingThreshold=0.01, write=None, pictures=True):
     """Measure the fracture of a run folder, fracture.json and fracture.csv, and draw it, fracture.png and stress.png; returns the short numbers.
 
-    The moment is the breakthrough, or the end of the run where it did not come to that; ``fracture.json`` has both. ``write(name, writer)``
+    The moment is the breakthrough, or the end of the run where it did not come to that; ``fracture.json`` has all that were taken. ``write(name, writer)``
     puts a file in its place (that of :class:`~capfrac.runfolder.RunFolder`); without ``pictures`` there are numbers alone.
     :class:`RunFolderError` for a folder without snapshots.
     """
@@ -146,7 +146,7 @@ def reportRun(path, openingThreshold=0.01, write=None, pictures=True):
     if moment is None or "start" not in shots:
         raise RunFolderError(f"the folder {path} has no snapshots 'start' and 'end' of a run: not finished, or none of capfrac")
     write = write or (lambda name, writer: writer(path / name))
-    measured = {name: measureFracture(shots[name], shots["start"], openingThreshold) for name in ("initiation", "breakthrough", "end") if name in shots}
+    measured = {name: measureFracture(shots[name], shots["start"], openingThreshold) for name in ("initiation", "breakthrough", "rest", "end") if name in shots}
     text = json.dumps({name: numbers for name, (numbers, _) in measured.items()}, indent=2) + "\n"
     write("fracture.json", lambda target: target.write_text(text, encoding="utf-8"))
     numbers, found = measured[moment]

@@ -18,9 +18,10 @@ GAVE_WAY = 0.5
 
 
 def read(path):
-    """The finished points of a table, each with ``mapMode``, ``pressure`` [Pa] and ``aOverR`` besides its columns."""
+    """The finished points of a table, each with ``mapMode``, ``mapModeByThroats``, ``pressure`` [Pa] and ``aOverR`` besides its columns."""
     rows = table.read(path, NEEDED)
     for row in rows:
+        row["mapModeByThroats"] = modeByThroats(row)
         row["mapMode"] = mapMode(row)
         through = row["breakthroughPressure [Pa]"]
         row["pressure"] = through if np.isfinite(through) else row["endPressure [Pa]"]
@@ -28,22 +29,28 @@ def read(path):
     return rows
 
 
-def mapMode(row):
-    """The mode of a run, by the rule of :mod:`capfrac.mode`, but for one case.
+def modeByThroats(row):
+    """The mode of a run by the older rule of :mod:`capfrac.mode`, but for one case.
 
     Gas that lifts the sediment from the inlet before it has entered a single pore is called 'none' there (no throat says how
     it was entered); in the map it is what it is, a fracture.
     """
-    return "fracture" if row["mode"] == "none" and row["displacement [r]"] >= 1 else row["mode"]
+    mode = row.get("modeByThroats", row["mode"])
+    return "fracture" if mode == "none" and row["displacement [r]"] >= 1 else mode
+
+
+def mapMode(row):
+    """The mode of a run, by the rule of :mod:`capfrac.mode`; in a table of before that rule, by the older one."""
+    return row["mode"] if "modeByThroats" in row else modeByThroats(row)
 
 
 def changes(rows):
     """r* for each cohesion and stress: a list of dicts.
 
     ``chi``, ``stressH`` [Pa], ``aOverR`` (median of the runs), ``theory`` (r* [m] for that flaw, 0 if none), ``change`` (a
-    :class:`~capfrac.regime.Change` in mean radii [m], by the modes) and, as a second opinion, ``gaveWay`` [m]: where the median
-    displacement of the grains falls through ``GAVE_WAY`` radii. The rule of :mod:`capfrac.mode` calls a run a fracture as soon as one
-    loaded grain is pushed by a radius, which one grain that slips into a void may do on its own.
+    :class:`~capfrac.regime.Change` in mean radii [m], by the modes), ``byThroats`` (the same by the older rule of the mode, in which one
+    grain that slips into a void may decide) and, as another opinion, ``gaveWay`` [m]: where the median displacement of the grains falls
+    through ``GAVE_WAY`` radii.
     """
     found = []
     for chi in sorted({row["cohesion.chi [-]"] for row in rows}):
@@ -58,7 +65,8 @@ def changes(rows):
 
 def _change(rows, abscissa):
     x = [row[abscissa] for row in rows]
-    return {"change": regime.modeChange(x, [row["mapMode"] for row in rows]), "gaveWay": regime.crossing(x, [max(row["medianDisplacement [r]"], 1e-12) for row in rows], GAVE_WAY)}
+    return {"change": regime.modeChange(x, [row["mapMode"] for row in rows]), "byThroats": regime.modeChange(x, [row["mapModeByThroats"] for row in rows]),
+            "gaveWay": regime.crossing(x, [max(row["medianDisplacement [r]"], 1e-12) for row in rows], GAVE_WAY)}
 
 
 def laws(found):
@@ -74,7 +82,7 @@ def laws(found):
 
 
 def numbers(rows):
-    """The change in sigma'_H r/gamma, of all stresses together: dict chi -> dict of ``change`` and ``gaveWay`` [-], as in :func:`changes`."""
+    """The change in sigma'_H r/gamma, of all stresses together: dict chi -> dict of ``change``, ``byThroats`` and ``gaveWay`` [-], as in :func:`changes`."""
     return {chi: _change([row for row in rows if row["cohesion.chi [-]"] == chi], "stressNumber [-]") for chi in sorted({row["cohesion.chi [-]"] for row in rows})}
 
 
@@ -85,9 +93,9 @@ def writeChanges(rows, path):
     with open(path, "w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream)
         writer.writerow(["cohesion.chi [-]", "stress.horizontal [Pa]", "runs [-]", "inlet a/r [-]", "rStar [m]", "allFractureUpTo [m]", "noFractureFrom [m]", "allCapillaryFrom [m]",
-                         "rStarByMedianDisplacement [m]", "rStarTheory [m]", "exponent [-]", "exponentError [-]", "exponentByMedianDisplacement [-]", "exponentByMedianDisplacementError [-]"])
+                         "rStarByThroats [m]", "rStarByMedianDisplacement [m]", "rStarTheory [m]", "exponent [-]", "exponentError [-]", "exponentByMedianDisplacement [-]", "exponentByMedianDisplacementError [-]"])
         for entry in found:
             change, fit = entry["change"], fits[entry["chi"]]
             exponents = [getattr(fit.get(opinion), name, np.nan) for opinion in ("change", "gaveWay") for name in ("exponent", "error")]
-            values = [entry["chi"], entry["stressH"], change.runs, entry["aOverR"], change.radius, change.low, change.high, change.rigid, entry["gaveWay"], entry["theory"], *exponents]
+            values = [entry["chi"], entry["stressH"], change.runs, entry["aOverR"], change.radius, change.low, change.high, change.rigid, entry["byThroats"].radius, entry["gaveWay"], entry["theory"], *exponents]
             writer.writerow(["" if isinstance(value, float) and not np.isfinite(value) else f"{value:.5g}" for value in values])
