@@ -24,12 +24,12 @@ def micrometres(value):
 
 
 def criticalRadius(rows):
-    """r* of each cohesion and stress, by both opinions and by theory."""
-    lines = ["| cohesion χ | σ'_H [kPa] | runs | a / r̄ | all fracture up to [um] | none does from [um] | all capillary from [um] | r* by the modes [um] | r* by displacement [um] | theory [um] |",
-             "|---|---|---|---|---|---|---|---|---|---|"]
+    """r* of each cohesion and stress, by both rules of the mode, by the displacement and by theory."""
+    lines = ["| cohesion χ | σ'_H [kPa] | runs | a / r̄ | all fracture up to [um] | none does from [um] | all capillary from [um] | r* by the modes [um] | by the older rule [um] | r* by displacement [um] | theory [um] |",
+             "|---|---|---|---|---|---|---|---|---|---|---|"]
     for entry in regime_map.changes(rows):
         change = entry["change"]
-        radii = [micrometres(value) for value in (change.low, change.high, change.rigid, change.radius, entry["gaveWay"])]
+        radii = [micrometres(value) for value in (change.low, change.high, change.rigid, change.radius, entry["byThroats"].radius, entry["gaveWay"])]
         lines.append(f"| {entry['chi']:g} | {entry['stressH'] / 1e3:g} | {change.runs} | {entry['aOverR']:.1f} | {' | '.join(radii)} | {micrometres(entry['theory']) if entry['theory'] else 'none'} |")
     return lines
 

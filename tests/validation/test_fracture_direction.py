@@ -21,7 +21,7 @@ def summaries():
 
 def test_equalStressesGiveBranches(summaries):
     rows = [fractureRow(summary) for summary in summaries["figure14"]]
-    assert all(row["mode"] in ("fracture", "mixed") for row in rows), rows
+    assert all(row["mode"] == "fracture" for row in rows), rows
     assert sum(row["branches"] >= 2 for row in rows) >= len(rows) - 1, rows  # one sample may have its accident
 
 
