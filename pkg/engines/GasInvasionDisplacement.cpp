@@ -52,8 +52,8 @@ void GasInvasionEngine::beforeReport()
 
 void GasInvasionEngine::followRemesh(const capfrac::Triangulation& before)
 {
-	cutOffPressures.clear();
 	if (!snapped.empty()) snapped = capfrac::carryOverEdges(before, snapped, mesh, 0);
+	followCutOff();
 	if (drained()) return;
 	SinglePhaseFlowEngine::followRemesh(before);
 	carryOverCells(cellState, before, waterPressure);

@@ -18,6 +18,7 @@ class GasInvasionEngine : public SinglePhaseFlowEngine {
 public:
 	virtual ~GasInvasionEngine() = default;
 	void                preSave(GasInvasionEngine&);
+	void                postSave(GasInvasionEngine&);
 	void                postLoad(GasInvasionEngine&);
 	std::vector<double> cellPressures() const override;
 
@@ -126,6 +127,8 @@ private:
 	bool                     levelDue() const;
 	void                     nextPressure();
 	void                     followProgram();
+	void                     endRamp();
+	void                     goOnWhereChanged();
 	void                     checkSupply() const;
 	void                     checkSupplyTogether() const;
 	void                     guardSupply();
@@ -137,6 +140,7 @@ private:
 	void                     settleCutOff(const capfrac::GasClusters& clusters, const std::vector<double>& room);
 	void                     takeWaterOut();
 	void                     shareOut(int cell, Real room, Real share, Real density);
+	void                     followCutOff();
 	std::vector<double>      findCutOffPressures(const capfrac::GasClusters& clusters) const;
 	/// Gas that hangs together: not through throats that are snapped off.
 	capfrac::GasClusters     gasClusters() const { return capfrac::gasClusters(mesh, contents, snapped); }
@@ -153,8 +157,6 @@ private:
 	capfrac::Accepted                acceptedSupply;
 	capfrac::EquationOfState         gasState;
 	GasControl                       control = GasControl::pressure;
-	std::vector<Real>                programFollowed; ///< the program that programPosition counts in
-	mutable std::vector<double>      cutOffPressures; ///< of each cell of gas that is cut off [Pa]; NaN for the others
 	capfrac::Accepted                acceptedDisplacement;
 	std::vector<std::uint8_t>        snapped; ///< per edge: snapped off; empty until the first that is
 	std::vector<capfrac::Disk>       startGrains; ///< the grains when the invasion began
@@ -188,6 +190,10 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((Real,reservoirVolume,0,Attr::triggerPostLoad,"Volume of gas upstream of the inlet, at the pressure of the connected gas [m³], >= 0; with a rate, the dead volume of the supply. Changed later, it comes or goes with its gas."))
 		((int,historyInterval,0,Attr::triggerPostLoad,"Steps between two rows of :yref:`history<GasInvasionEngine.history>` [-], >= 0; 0: a row per level. At 8192 rows every second one goes and the interval doubles."))
 		((int,programPosition,0,Attr::readonly,"Turning points of the program that were reached [-] |yupdate|."))
+		((std::vector<Real>,programFollowed,,(Attr::hidden|Attr::readonly),"The program that programPosition counts in [Pa]."))
+		((std::string,controlFollowed,"pressure",(Attr::hidden|Attr::readonly),"The gasControl of the last steps."))
+		((Vector3r,rampEnd,Vector3r(NaN,NaN,NaN),(Attr::hidden|Attr::readonly),"gasPressure, maxPressure and pressureIncrement when a ramp or a held pressure was done [Pa]."))
+		((std::vector<Real>,cutOffPressures,,(Attr::hidden|Attr::readonly),"Pressure of each cell of gas that is cut off [Pa]; NaN for the others."))
 		((Real,reservoirMass,0,Attr::readonly,"Mass of gas in the reservoir [kg] |yupdate|."))
 		((Real,initialGasMass,0,Attr::readonly,"Mass of gas in the reservoir and the pores of the inlet when counting began [kg] |yupdate|; 0 for the incompressible law."))
 		((Real,injectedGasMass,0,Attr::readonly,"That and all that was supplied since, less what went back [kg] |yupdate|."))
@@ -198,7 +204,7 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((int,historySeen,0,(Attr::hidden|Attr::readonly),"Rows of the history that came so far."))
 		((std::vector<Vector6r>,historyNumbers,,(Attr::hidden|Attr::readonly),"Time, pressure, connected volume, mass, saturation of each row of the history."))
 		((std::vector<Vector3i>,historyCounts,,(Attr::hidden|Attr::readonly),"Iteration, broken bonds, level of each row of the history."))
-		((Real,unbalancedTolerance,1e-3,Attr::triggerPostLoad,"Mean resultant force on the grains over the mean contact force below which the grains count as at rest [-], > 0."))
+		((Real,unbalancedTolerance,1e-3,Attr::triggerPostLoad,"Mean resultant force on the grains over the mean contact force below which the grains count as at rest [-], > 0. The resultant is of all forces in the step, weight included, in the directions in which grains may move."))
 		((int,minLevelSteps,100,Attr::triggerPostLoad,"Steps that a pressure level lasts at least [-], >= 1."))
 		((int,maxLevelSteps,20000,Attr::triggerPostLoad,"Steps after which the pressure rises though the grains still move [-]; such levels are marked in :yref:`levels<GasInvasionEngine.levels>`."))
 		((std::string,inletWall,"bottom",Attr::triggerPostLoad,"Wall with the gas inlet: ``'left'``, ``'right'``, ``'bottom'``, ``'top'`` [-]."))

@@ -1,6 +1,7 @@
 /// What GasInvasionEngine knows of the grains: bonds, who bears load, displacements, rest; and how loose grains come to rest.
 
 #include "GasInvasionEngine.hpp"
+#include "StepOrder.hpp"
 
 #include <pkg/common/NormShearPhys.hpp>
 #include <pkg/dem/CohesiveFrictionalContactLaw.hpp>
@@ -45,13 +46,6 @@ namespace {
 	}
 
 	bool isAmong(const std::vector<int>& ascending, Body::id_t id) { return std::binary_search(ascending.begin(), ascending.end(), id); }
-
-	/// Whether the integrator moves a grain freely in the plane.
-	bool movesFreely(const Body& body, const NewtonIntegrator& newton)
-	{
-		const bool blocked = body.state->blockedDOFs & (State::DOF_X | State::DOF_Y);
-		return body.isDynamic() && !blocked && (newton.mask <= 0 || body.maskCompatible(newton.mask));
-	}
 
 } // namespace
 
@@ -126,14 +120,21 @@ Real GasInvasionEngine::largestLoaded(const std::vector<Real>& moved, const std:
 
 // --- rest -----------------------------------------------------------------------------------------
 
+/// Mean resultant on the grains that may move over the mean contact force [-], weight and all other forces included.
 Real GasInvasionEngine::unbalanced() const
 {
-	Real resultant = 0;
-	for (auto id : reader.grainIds)
-		resultant += scene->forces.getForce(id).norm();
+	const DrivingForces forces(*scene, *this);
+	Real                resultant = 0;
+	int                 nMoving   = 0;
+	for (auto id : reader.grainIds) {
+		const auto& body = *(*scene->bodies)[id];
+		if (!forces.move(body)) continue;
+		resultant += forces.on(body).norm();
+		++nMoving;
+	}
+	if (resultant == 0) return 0;
 	const Real contact = meanNormalForce(*scene);
-	if (contact == 0) return resultant > 0 ? std::numeric_limits<Real>::infinity() : 0;
-	return resultant / reader.grainIds.size() / contact;
+	return contact > 0 ? resultant / nMoving / contact : std::numeric_limits<Real>::infinity();
 }
 
 bool GasInvasionEngine::wallsAtRest() const
@@ -151,20 +152,19 @@ bool GasInvasionEngine::wallsAtRest() const
 /// holds, moves or does not want damped.
 void GasInvasionEngine::brakeLooseGrains()
 {
-	const auto* newton = integrator();
+	const auto* newton = integratorOf(*scene);
 	if (!newton || newton->damping <= 0) return;
+	const DrivingForces       forces(*scene, *this);
 	std::vector<std::uint8_t> held(reader.grainIds.size() + capfrac::nWalls, 1);
-	for (std::size_t i = 0; i < reader.grainIds.size(); ++i)
-		held[i] = !movesFreely(*(*scene->bodies)[reader.grainIds[i]], *newton);
+	for (std::size_t i = 0; i < reader.grainIds.size(); ++i) {
+		const auto& body = *(*scene->bodies)[reader.grainIds[i]];
+		held[i]          = !forces.move(body) || body.state->blockedDOFs & (State::DOF_X | State::DOF_Y);
+	}
 	const auto loose = capfrac::looseClusters(held, contactsThat(transmits));
 	if (loose.count == 0) return;
-	scene->forces.sync();
 	std::vector<Vector3r> resultant(loose.count, Vector3r::Zero());
-	for (std::size_t i = 0; i < reader.grainIds.size(); ++i) {
-		if (loose.ofMember[i] < 0) continue;
-		const auto& body = *(*scene->bodies)[reader.grainIds[i]];
-		resultant[loose.ofMember[i]] += scene->forces.getForce(body.id) + body.state->mass * newton->gravity;
-	}
+	for (std::size_t i = 0; i < reader.grainIds.size(); ++i)
+		if (loose.ofMember[i] >= 0) resultant[loose.ofMember[i]] += forces.on(*(*scene->bodies)[reader.grainIds[i]]);
 	const Real period = periodOfGrains(), least = noForce * meanNormalForce(*scene);
 	if (period <= 0) return;
 	const Real rate = 2 * newton->damping / period;

@@ -21,7 +21,6 @@ void GasInvasionEngine::finishStep()
 	if (rampDone || scene->iter % checkPeriod != 0 || !levelDue()) return;
 	const int steps = static_cast<int>(scene->iter) - std::max(levelStart, lastEventIter);
 	if (steps < std::max(minLevelSteps, invasionInterval)) return;
-	scene->forces.sync();
 	// Pressures of a ramp are known to its increment in any case.
 	const bool atRest = waterExcess <= math::max(restingExcess * capillaryPressure(), pressureIncrement) && wallsAtRest() && unbalanced() < unbalancedTolerance;
 	if (!atRest && static_cast<int>(scene->iter) - levelStart < maxLevelSteps) return;
@@ -58,9 +57,22 @@ void GasInvasionEngine::nextPressure()
 	else if (!pressureProgram.empty())
 		followProgram();
 	else if (pressureIncrement <= 0 || gasPressure >= maxPressure)
-		rampDone = true;
+		endRamp();
 	else
 		gasPressure = math::min(gasPressure + pressureIncrement, maxPressure);
+}
+
+void GasInvasionEngine::endRamp()
+{
+	rampDone = true;
+	rampEnd  = { gasPressure, maxPressure, pressureIncrement };
+}
+
+/// A ramp whose end was moved up goes on, and so does a held pressure that was changed. Called after loading, too, which changes nothing.
+void GasInvasionEngine::goOnWhereChanged()
+{
+	if (!rampDone || pressureFollows() || !pressureProgram.empty() || gasPressure >= maxPressure) return;
+	if (rampEnd != Vector3r(gasPressure, maxPressure, pressureIncrement)) rampDone = false;
 }
 
 void GasInvasionEngine::followProgram()

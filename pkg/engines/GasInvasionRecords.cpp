@@ -19,20 +19,22 @@ void GasInvasionEngine::preSave(GasInvasionEngine&)
 	savedStart.insert(savedStart.end(), { startBox.left, startBox.right, startBox.bottom, startBox.top });
 }
 
+/// What only carries the state into the file must not be there when an assignment calls postLoad().
+void GasInvasionEngine::postSave(GasInvasionEngine&) { savedStart.clear(), savedSnapped.clear(); }
+
 void GasInvasionEngine::postLoad(GasInvasionEngine&)
 {
 	guardAttributes();
 	restore();
-	if (!pressureFollows() && pressureProgram.empty() && gasPressure < maxPressure) rampDone = false; // a ramp whose end was moved up goes on
+	goOnWhereChanged();
 	if (savedStart.empty() || !startGrains.empty()) return;
 	startGrains.clear();
 	std::size_t k = 0;
 	for (; k + 4 < savedStart.size(); k += 3)
 		startGrains.push_back({ { savedStart[k], savedStart[k + 1] }, savedStart[k + 2] });
 	startBox = { savedStart[k], savedStart[k + 1], savedStart[k + 2], savedStart[k + 3] };
-	savedStart.clear();
 	snapped.assign(savedSnapped.begin(), savedSnapped.end());
-	savedSnapped.clear();
+	postSave(*this);
 }
 
 py::dict GasInvasionEngine::pyEvents()

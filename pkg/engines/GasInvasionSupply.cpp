@@ -53,11 +53,10 @@ void GasInvasionEngine::guardSupply()
 	gasState = { capfrac::gasLawFromName(gasLaw), gasMolarMass, gasTemperature, gasDeviation, 1, {}, {} };
 	for (const auto& pair : gasTable)
 		gasState.pressures.push_back(pair[0]), gasState.densities.push_back(pair[1]);
-	const auto before = control;
-	control           = gasControl == "rate" ? GasControl::rate : gasControl == "reservoir" ? GasControl::reservoir : GasControl::pressure;
-	if (prepared() && control != before) rampDone = false; // another control goes on from here
+	control = gasControl == "rate" ? GasControl::rate : gasControl == "reservoir" ? GasControl::reservoir : GasControl::pressure;
+	if (prepared() && gasControl != controlFollowed) rampDone = false; // another control goes on from here
 	if (prepared() && pressureProgram != programFollowed) programPosition = 0, rampDone = false;
-	programFollowed = pressureProgram;
+	controlFollowed = gasControl, programFollowed = pressureProgram;
 }
 
 /// What only the whole of the attributes shows; at assignment, one would have to come before the other.
@@ -217,13 +216,19 @@ std::vector<double> GasInvasionEngine::findCutOffPressures(const capfrac::GasClu
 	return pressures;
 }
 
+/// After a remeshing, whose cells are others: until the next step balances the gas again.
+void GasInvasionEngine::followCutOff()
+{
+	if (cutOffPressures.empty()) return;
+	cutOffPressures = namingGas([&] { return findCutOffPressures(gasClusters()); });
+}
+
 Real GasInvasionEngine::pressureOfGas(int cell) const
 {
 	if (contents.held[cell]) return contents.heldPressure[cell];
 	if (!gasCounted() || !massStarted) return gasPressure;
-	// Asked for after loading or remeshing, before a step has balanced the gas again.
-	if (cutOffPressures.size() != mesh.cells.size()) cutOffPressures = namingGas([&] { return findCutOffPressures(gasClusters()); });
-	return std::isfinite(cutOffPressures[cell]) ? cutOffPressures[cell] : gasPressure;
+	const bool known = cutOffPressures.size() == mesh.cells.size() && std::isfinite(cutOffPressures[cell]);
+	return known ? cutOffPressures[cell] : gasPressure;
 }
 
 void GasInvasionEngine::checkMass() const

@@ -1,5 +1,7 @@
 #include "MeniscusCohesionEngine.hpp"
 #include "GasInvasionEngine.hpp"
+#include "EngineErrors.hpp"
+#include "StepOrder.hpp"
 
 #include <core/Omega.hpp>
 
@@ -31,7 +33,6 @@ void MeniscusCohesionEngine::guardAttributes()
 
 void MeniscusCohesionEngine::preSave(MeniscusCohesionEngine&)
 {
-	savedPairs.clear();
 	for (const auto& pair : pairs)
 		savedPairs.push_back(Vector3i(pair.a, pair.b, pair.bridged ? 1 : 0));
 }
@@ -39,10 +40,9 @@ void MeniscusCohesionEngine::preSave(MeniscusCohesionEngine&)
 void MeniscusCohesionEngine::postLoad(MeniscusCohesionEngine&)
 {
 	guardAttributes();
-	// YADE calls postLoad at assignments, too: only an engine that knows no pairs yet takes up the saved ones.
-	if (pairs.empty())
-		for (const auto& saved : savedPairs)
-			pairs.push_back({ saved[0], saved[1], saved[2] != 0 });
+	// YADE calls postLoad at assignments, too: none are saved then.
+	for (const auto& saved : savedPairs)
+		pairs.push_back({ saved[0], saved[1], saved[2] != 0 });
 	savedPairs.clear();
 }
 
@@ -118,10 +118,13 @@ std::vector<MeniscusCohesionEngine::Pair> MeniscusCohesionEngine::pairsThatGasMe
 
 void MeniscusCohesionEngine::action()
 {
-	const auto& network = fluid();
-	read(network);
-	follow(network);
-	pull(network);
+	runStep(*scene, [this] {
+		checkStepOrder(*scene, *this);
+		const auto& network = fluid();
+		read(network);
+		follow(network);
+		pull(network);
+	});
 }
 
 void MeniscusCohesionEngine::follow(const PoreNetworkEngine& network)

@@ -16,6 +16,7 @@ public:
 	virtual ~MeniscusCohesionEngine() = default;
 	void action() override;
 	void preSave(MeniscusCohesionEngine&);
+	void postSave(MeniscusCohesionEngine&) { savedPairs.clear(); }
 	void postLoad(MeniscusCohesionEngine&);
 
 	boost::python::dict pyMenisci();

@@ -1,11 +1,11 @@
 #include "PoreNetworkEngine.hpp"
 #include "Attributes.hpp"
+#include "EngineErrors.hpp"
 
 #include "../geometry/Flips.hpp"
 
 #include <core/Omega.hpp>
 #include <pkg/common/NormShearPhys.hpp>
-#include <pkg/dem/NewtonIntegrator.hpp>
 #include <pkg/dem/ScGeom.hpp>
 
 #include <algorithm>
@@ -17,11 +17,14 @@ CREATE_LOGGER(PoreNetworkEngine);
 
 void PoreNetworkEngine::action()
 {
-	prepare();
-	update();
-	advanceFluids();
-	reader.addForces(*scene, forcesOfFluids(), thickness);
-	finishStep();
+	runStep(*scene, [this] {
+		checkStepOrder(*scene, *this);
+		prepare();
+		update();
+		advanceFluids();
+		reader.addForces(*scene, forcesOfFluids(), thickness);
+		finishStep();
+	});
 }
 
 void PoreNetworkEngine::checkAttributes() const
@@ -94,13 +97,6 @@ void PoreNetworkEngine::checkSizes(const SceneReader& from) const
 	throw std::runtime_error(text.str());
 }
 
-const NewtonIntegrator* PoreNetworkEngine::integrator() const
-{
-	for (const auto& engine : scene->engines)
-		if (const auto* newton = dynamic_cast<const NewtonIntegrator*>(engine.get()); newton && !newton->dead) return newton;
-	return nullptr;
-}
-
 void PoreNetworkEngine::checkTimeStep() const
 {
 	if (!grainsMove()) return;
@@ -155,12 +151,10 @@ void PoreNetworkEngine::update()
 		throw std::runtime_error(getClassName() + ": the engine follows the grains of another scene; make a new one for this scene");
 	reader.scene = scene;
 	if (reader.nBodies != scene->bodies->size()) {
-		if (reader.nBodies != 0)
-			throw std::runtime_error(
-			        getClassName() + " " + whenInLoop(*scene) + "the scene has " + std::to_string(scene->bodies->size())
-			        + " bodies, the network was built for " + std::to_string(reader.nBodies)
-			        + "; bodies cannot be added or removed while an engine follows them");
-		reader.nBodies = scene->bodies->size(); // after loading
+		throw std::runtime_error(
+		        getClassName() + " " + whenInLoop(*scene) + "the scene has " + std::to_string(scene->bodies->size())
+		        + " bodies, the network was built for " + std::to_string(reader.nBodies)
+		        + "; bodies cannot be added or removed while an engine follows them");
 	}
 	namingBodies(reader, [&] { reader.read(*scene); });
 	if (movedFar()) {

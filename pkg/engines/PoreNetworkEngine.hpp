@@ -2,14 +2,13 @@
 
 #include "Attributes.hpp"
 #include "SceneReader.hpp"
+#include "StepOrder.hpp"
 
 #include "../network/Domains.hpp"
 
 #include <core/GlobalEngine.hpp>
 
 namespace yade {
-
-class NewtonIntegrator;
 
 /// What every fluid engine shares: the network that follows the grains, and the forces of its pressures.
 ///
@@ -19,6 +18,7 @@ public:
 	virtual ~PoreNetworkEngine() = default;
 	void action() override;
 	void preSave(PoreNetworkEngine&);
+	void postSave(PoreNetworkEngine&);
 	void postLoad(PoreNetworkEngine&);
 
 	/// Builds the network of the scene as it is now, once. Throws without having changed anything.
@@ -68,10 +68,8 @@ protected:
 	virtual bool drained() const { return true; }
 	/// Partition of the cells anew, after phases or open edges changed.
 	void findDomains();
-	/// The integrator that moves the grains; none where all are dead.
-	const NewtonIntegrator* integrator() const;
 	/// Whether an integrator moves the grains; without one they stand still, whatever their forces and velocities.
-	bool grainsMove() const { return integrator() != nullptr; }
+	bool grainsMove() const { return integratorOf(*scene) != nullptr; }
 	bool prepared() const { return !mesh.cells.empty(); }
 	Real smallestRadius() const;
 
@@ -126,7 +124,8 @@ The void space of a box of four walls (:yref:`Wall`, axes 0 and 1) filled with d
 power triangulation; cells of one phase that are joined by an open edge form a *domain*, the pore of [Jain2008]_. Each step the network is brought up to the
 grains: contacts open and close, edges flip, and what the cells hold is kept to round-off. The fluids load grains and walls with $\sum p\,\partial V/\partial x$.
 
-Place it after :yref:`InteractionLoop` and before :yref:`NewtonIntegrator`. By itself it holds every cell at :yref:`waterPressure<PoreNetworkEngine.waterPressure>`
+Place it after :yref:`InteractionLoop` and all engines that add forces, before a :yref:`WallServoEngine` and :yref:`NewtonIntegrator`; elsewhere, or with a second fluid engine, the first step is
+refused. By itself it holds every cell at :yref:`waterPressure<PoreNetworkEngine.waterPressure>`
 or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressures>`; derived engines move fluids. Pressures are positive in compression.)""",
 		((std::string,poreMode,"domain",Attr::triggerPostLoad,"What a pore is: ``'domain'`` (cells joined across open edges) or ``'triangle'`` (every cell by itself) [-]."))
 		((Real,mergeTolerance,1e-3,Attr::triggerPostLoad,"Gap beyond which a contact is open and joins the cells on its sides, in units of the smallest radius [-], >= 0."))
@@ -146,6 +145,7 @@ or at pressures set by :yref:`setCellPressures<PoreNetworkEngine.setCellPressure
 		((Real,initialVoid,0,Attr::readonly,"Void volume at the start, all water [m³] |yupdate|."))
 		((Real,initialWater,0,Attr::readonly,"Water at the start [m³] |yupdate|; counted at pressure zero where it is compressible."))
 		((std::vector<int>,savedIds,,(Attr::hidden|Attr::readonly),"Grain and wall ids, for saving."))
+		((int,savedBodies,0,(Attr::hidden|Attr::readonly),"Number of bodies in the scene, for saving."))
 		((std::vector<int>,savedCells,,(Attr::hidden|Attr::readonly),"Vertices of the cells, for saving."))
 		((std::vector<int>,savedPhase,,(Attr::hidden|Attr::readonly),"Phases of the cells, for saving."))
 		((std::vector<int>,savedSource,,(Attr::hidden|Attr::readonly),"Inlet flags of the cells, for saving."))

@@ -20,6 +20,7 @@ namespace {
 void PoreNetworkEngine::pyPrepare()
 {
 	scene = currentScene();
+	if (!prepared()) checkStepOrder(*scene, *this);
 	prepare();
 	update();
 }

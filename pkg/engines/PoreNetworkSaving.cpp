@@ -8,8 +8,8 @@ namespace yade {
 
 void PoreNetworkEngine::preSave(PoreNetworkEngine&)
 {
-	savedIds.clear(), savedCells.clear(), savedPhase.clear(), savedSource.clear(), savedOpen.clear(), savedChecked.clear();
 	if (!prepared()) return;
+	savedBodies = static_cast<int>(reader.nBodies);
 	savedIds.assign(reader.grainIds.begin(), reader.grainIds.end());
 	savedIds.insert(savedIds.end(), reader.wallIds.begin(), reader.wallIds.end());
 	for (const auto& cell : mesh.cells)
@@ -29,12 +29,19 @@ void PoreNetworkEngine::preSave(PoreNetworkEngine&)
 	savedChecked.insert(savedChecked.end(), { checkedBox.left, checkedBox.right, checkedBox.bottom, checkedBox.top });
 }
 
+/// What only carries the state into the file must not be there when an assignment calls postLoad().
+void PoreNetworkEngine::postSave(PoreNetworkEngine&)
+{
+	savedIds.clear(), savedCells.clear(), savedPhase.clear(), savedSource.clear(), savedOpen.clear(), savedChecked.clear();
+	savedHeld.clear(), savedHeldPressure.clear(), savedGas.clear(), savedWater.clear(), savedGasMass.clear(), savedPressures.clear();
+}
+
 void PoreNetworkEngine::restore()
 {
-	// YADE calls postLoad at assignments, too: only an engine that has no network yet takes up the saved one.
-	if (savedCells.empty() || prepared()) return;
+	if (savedCells.empty()) return; // YADE calls postLoad at assignments, too
 	const std::size_t n = savedIds.size() - capfrac::nWalls;
 	reader              = {};
+	reader.nBodies      = savedBodies;
 	reader.grainIds.assign(savedIds.begin(), savedIds.begin() + n);
 	std::copy(savedIds.begin() + n, savedIds.end(), reader.wallIds.begin());
 	mesh         = {};
@@ -58,7 +65,7 @@ void PoreNetworkEngine::restore()
 		checkedGrains[i] = { { savedChecked[3 * i], savedChecked[3 * i + 1] }, savedChecked[3 * i + 2] };
 	checkedBox = { savedChecked[3 * n], savedChecked[3 * n + 1], savedChecked[3 * n + 2], savedChecked[3 * n + 3] };
 	domains    = {};
-	savedIds.clear(), savedCells.clear();
+	postSave(*this);
 }
 
 void PoreNetworkEngine::postLoad(PoreNetworkEngine&)

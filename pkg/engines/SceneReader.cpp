@@ -15,6 +15,13 @@ namespace {
 		throw std::runtime_error("body #" + std::to_string(id) + ": " + finding);
 	}
 
+	/// Grains would touch and leave through walls that the network knows as closed.
+	void checkNotPeriodic(const Scene& scene)
+	{
+		if (scene.isPeriodic)
+			throw std::runtime_error("the scene is periodic; allowed: a box of four walls in a scene that is not, O.periodic = False");
+	}
+
 	void checkGrain(const Body& body)
 	{
 		if (body.isClumpMember() || body.isClump()) refuseBody(body.id, "is a clump or a member of one; the network takes single disks only");
@@ -35,6 +42,7 @@ std::string whenInLoop(const Scene& scene)
 
 void SceneReader::find(const Scene& from)
 {
+	checkNotPeriodic(from);
 	std::vector<Body::id_t>                 foundGrains;
 	std::array<std::vector<const Body*>, 2> foundWalls;
 	for (const auto& body : *from.bodies) {
@@ -89,6 +97,7 @@ void SceneReader::read(const Scene& from)
 
 void SceneReader::readWalls(const Scene& from)
 {
+	checkNotPeriodic(from);
 	std::array<Real, capfrac::nWalls> at;
 	for (int w = 0; w < capfrac::nWalls; ++w) {
 		const auto& body = (*from.bodies)[wallIds[w]];

@@ -19,18 +19,17 @@ capfrac::Skeleton SinglePhaseFlowEngine::skeleton() const
 	skeleton.velocity.resize(2 * n + capfrac::nWalls);
 	skeleton.force.assign(2 * n + capfrac::nWalls, 0);
 	skeleton.mass.assign(2 * n + capfrac::nWalls, std::numeric_limits<double>::infinity());
-	Vector3r weight = Vector3r::Zero();
-	if (const auto* newton = integrator()) weight = newton->gravity, skeleton.damping = newton->damping;
-	scene->forces.sync();
+	const DrivingForces forces(*scene, *this);
+	if (const auto* newton = integratorOf(*scene)) skeleton.damping = newton->damping;
 	for (int i = 0; i < n; ++i) {
 		const auto& body  = *(*scene->bodies)[reader.grainIds[i]];
 		const auto& state = *body.state;
 		checkMotion(body);
-		Vector3r force = scene->forces.getForce(body.id) + state.mass * weight;
+		Vector3r force = forces.on(body);
 		if (!weightForce.grains.empty()) force += thickness * Vector3r(weightForce.grains[i].x, weightForce.grains[i].y, 0);
 		for (int axis = 0; axis < 2; ++axis) {
 			skeleton.velocity[2 * i + axis] = state.vel[axis];
-			if (!body.isDynamic() || state.blockedDOFs & State::axisDOF(axis)) continue;
+			if (!forces.move(body) || state.blockedDOFs & State::axisDOF(axis)) continue;
 			skeleton.mass[2 * i + axis]  = state.mass;
 			skeleton.force[2 * i + axis] = force[axis];
 		}

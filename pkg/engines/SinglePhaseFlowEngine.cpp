@@ -58,10 +58,15 @@ void SinglePhaseFlowEngine::preSave(SinglePhaseFlowEngine&)
 	savedSolverStart = std::move(memory.start), savedSolverRow = std::move(memory.row), savedSolverValue = std::move(memory.value);
 }
 
+/// Else the next assignment, at which YADE calls postLoad(), would take the solver back to where it was saved.
+void SinglePhaseFlowEngine::postSave(SinglePhaseFlowEngine&)
+{
+	savedSolverStart.clear(), savedSolverRow.clear(), savedSolverValue.clear();
+}
+
 void SinglePhaseFlowEngine::postLoad(SinglePhaseFlowEngine&)
 {
 	guardAttributes();
-	// YADE calls this at assignments, too: nothing is left to be recalled then.
 	if (savedSolverStart.empty()) return;
 	solver.recall({ std::exchange(savedSolverStart, {}), std::exchange(savedSolverRow, {}), std::exchange(savedSolverValue, {}) });
 }

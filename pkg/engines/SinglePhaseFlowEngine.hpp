@@ -17,6 +17,7 @@ class SinglePhaseFlowEngine : public PoreNetworkEngine {
 public:
 	virtual ~SinglePhaseFlowEngine() = default;
 	void                preSave(SinglePhaseFlowEngine&);
+	void                postSave(SinglePhaseFlowEngine&);
 	void                postLoad(SinglePhaseFlowEngine&);
 	std::vector<double> cellPressures() const override;
 	Real                wallStiffness(int wall) const override;

@@ -1,6 +1,8 @@
 #include "WallServoEngine.hpp"
 #include "Attributes.hpp"
+#include "EngineErrors.hpp"
 #include "PoreNetworkEngine.hpp"
+#include "StepOrder.hpp"
 #include "Walls.hpp"
 
 #include <core/Omega.hpp>
@@ -90,8 +92,16 @@ const std::array<Real, capfrac::nWalls>& WallServoEngine::contactStiffness()
 
 void WallServoEngine::action()
 {
-	checkAttributes();
-	measure();
+	runStep(*scene, [this] {
+		checkStepOrder(*scene, *this);
+		checkAttributes();
+		measure();
+		moveWalls();
+	});
+}
+
+void WallServoEngine::moveWalls()
+{
 	auto stiffness = contactStiffness();
 	for (const auto& engine : scene->engines) // a fluid that cannot leave at once resists, too
 		if (const auto* network = dynamic_cast<const PoreNetworkEngine*>(engine.get()); network && !network->dead)

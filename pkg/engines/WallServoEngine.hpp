@@ -30,6 +30,7 @@ private:
 	void checkAttributes() const;
 	void guardAttributes();
 	Task task(int wall) const;
+	void moveWalls();
 	/// Requested stress on a wall [Pa], from the stresses measured in this step.
 	Real target(int wall) const;
 	/// Sum of the stiffness of each wall's contacts [N/m]; counted once a step.
@@ -51,7 +52,7 @@ public:
 
 A wall with a stress follows the difference between its load and the requested one like a dashpot: $v = g\,(F - F_\mathrm{target})/(K\,\Delta t)$ outwards, $K$ being the stiffness of its
 contacts, at most :yref:`maxVelocity<WallServoEngine.maxVelocity>`. The load is all that acts on the wall in this step, grains and fluids. Place it after every engine that
-adds forces and before :yref:`NewtonIntegrator`. YADE's own controllers are made for boxes of six walls and their forces alone: TriaxialStressController takes six
+adds forces and before :yref:`NewtonIntegrator`; elsewhere the first step is refused. YADE's own controllers are made for boxes of six walls and their forces alone: TriaxialStressController takes six
 bodies and their third dimension for granted. Stresses are positive in compression.)""",
 		((Real,stressX,0,Attr::triggerPostLoad,"Requested stress on the left and the right wall, $\\sigma_H$ [Pa], >= 0."))
 		((Real,stressY,0,Attr::triggerPostLoad,"Requested stress on the bottom and the top wall, $\\sigma_V$ [Pa], >= 0."))
