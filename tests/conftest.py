@@ -7,7 +7,6 @@ command itself start it as a process of its own (tests/robustness).
 import os
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,7 @@ import capfrac
 
 capfrac.load_engines()
 
-from yade import O, utils  # noqa: E402  (YADE must be found by capfrac first)
+from yade import O  # noqa: E402  (YADE must be found by capfrac first)
 
 from capfrac import sediment  # noqa: E402
 
@@ -178,12 +177,11 @@ def sceneState():
 
 @pytest.fixture(scope="session")
 def command():
-    """A function (arguments, **Popen) -> process of ``capfrac`` with this interpreter and package."""
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONUNBUFFERED": "1",
-                   "PYTHONPATH": os.pathsep.join([str(Path(capfrac.__file__).parents[1]), str(Path(utils.__file__).parents[1])])}
+    """A function (arguments, **Popen) -> process of ``capfrac``, by the launcher that was built beside the package."""
+    launcher = Path(capfrac.__file__).parents[2] / "bin" / "capfrac"
 
     def start(*arguments, **options):
-        return subprocess.Popen([sys.executable, "-B", "-c", "import sys; from capfrac.cli import main; sys.exit(main())", *map(str, arguments)],
-                                env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+        return subprocess.Popen([launcher, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                **options)
 
     return start

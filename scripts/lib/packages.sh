@@ -6,7 +6,7 @@ CAPFRAC_PACKAGES=(
 	bash bzip2 ca-certificates cmake g++ git ninja-build xz-utils
 	libboost-all-dev libcgal-dev libeigen3-dev libgmp-dev libgtest-dev libmpfr-dev libsuitesparse-dev
 	python3 python3-dev python3-matplotlib python3-meshio python3-numpy python3-scipy
-	python3-pytest python3-tqdm
+	python3-distributed python3-pytest python3-tqdm
 )
 
 # What YADE's own configuration insists on, even for a minimal build.

@@ -5,7 +5,6 @@ import shlex
 import signal
 import subprocess
 import time
-from concurrent import futures
 
 import pytest
 
@@ -110,17 +109,9 @@ def test_failedPointsAreRecordedAndDoNotStopTheRest(tmp_path):
 
 
 def test_aKilledPointCountsAsFailed(small, tmp_path, monkeypatch):
-    monkeypatch.setattr(execution.sys, "executable", "/bin/sh")
-    original = subprocess.Popen
-    monkeypatch.setattr(execution.subprocess, "Popen", lambda arguments, **options: original(["/bin/sh", "-c", "kill -9 $$"], **options))
+    monkeypatch.setattr(execution.environment, "pythonOf", lambda *arguments: ["/bin/sh", "-c", "kill -9 $$"])
     result = runSweep(readSweep(small), tmp_path / "sweep")
     assert result["failed"] == 2 and rows(tmp_path / "sweep")[0]["error"] == "ended by signal 9 (SIGKILL)"
-
-
-def test_anyExecutorWillDo(small, whole, tmp_path):
-    with futures.ThreadPoolExecutor(1) as executor:
-        runSweep(readSweep(small), tmp_path / "sweep", executor=executor)
-    assert rows(tmp_path / "sweep") == whole
 
 
 def test_foldersOfOthersAreRefused(small, tmp_path):

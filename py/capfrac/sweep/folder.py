@@ -54,6 +54,7 @@ class SweepFolder:
 
     def close(self):
         """Let others at the folder."""
+        fcntl.flock(self._lock, fcntl.LOCK_UN)  # processes that were forked meanwhile hold the file open, too
         self._lock.close()
 
     @property
