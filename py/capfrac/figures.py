@@ -1,4 +1,4 @@
-"""Pictures of snapshots and curves of an injection, in the language of Figures 15 and 16 of Jain & Juanes (2008).
+"""Pictures of snapshots, in the language of Figures 15 and 16 of Jain & Juanes (2008).
 
 Grains are disks, gas is blue, compression between grains is brown and tension green, with lines from centre to centre
 as thick as the force is large. A picture's file has the same bytes whenever it is drawn from the same numbers.
@@ -6,6 +6,7 @@ as thick as the force is large. A picture's file has the same bytes whenever it 
 
 import math
 import os
+import textwrap
 from contextlib import contextmanager
 
 import matplotlib
@@ -53,85 +54,6 @@ def drawPair(snapshots, path, titles=None, width=3.6, forces=True, bonds=True, d
     _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
 
 
-def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPressure=math.nan, waterPressure=0.0,
-                       title=None, breakthroughAtStart=False):
-    """Draw what an injection did, level by level: P_c against saturation, opening and displacement against P_c.
-
-    ``levels`` and ``events`` are the dicts of ``gas.levels()`` and ``gas.events()``. The second panel shows the share of
-    the invaded throats that had opened (with ``events``) and broken bonds, as a share of ``bondCount`` where that is
-    given. Pressures are those of the engine [Pa]; ``waterPressure`` is taken off. Hollow marks are levels that ended
-    before the grains were at rest. Without a finished level the panels stay empty: a run may end within its first.
-    ``breakthroughAtStart``: gas was through where the ramp began, so its pressure is marked as an upper bound.
-    """
-    highest = max(levels["pressure"], default=0.0) - waterPressure
-    power, unit = max((power, unit) for power, unit in ((0, "Pa"), (3, "kPa"), (6, "MPa")) if power == 0 or highest >= 10.0**power)
-    pressure = (np.array(levels["pressure"], dtype=float) - waterPressure) / 10.0**power
-    breakthrough = (breakthroughPressure - waterPressure) / 10.0**power
-    fill = [COLOURS["dot"] if rest else "white" for rest in levels["atRest"]]
-
-    with newFigure((9.6, 3.1)) as figure:
-        grid = {"left": 0.065, "right": 0.985, "bottom": 0.165, "top": 0.89 if title else 0.95, "wspace": 0.33}
-        curve, opening, moving = figure.subplots(1, 3, gridspec_kw=grid)
-        curve.plot(levels["gasSaturation"], pressure, color=COLOURS["gas"], linewidth=1.2, zorder=2)
-        curve.scatter(levels["gasSaturation"], pressure, s=9, c=fill, edgecolors=COLOURS["dot"], linewidths=0.7, zorder=3, clip_on=False)
-        curve.set(xlabel="gas saturation $S_g$", ylabel=f"capillary pressure $P_c$ [{unit}]", xlim=(0, 1))
-
-        share = bondCount or 1
-        shown = pressure
-        bondLabel = "broken bonds / bonds" if bondCount else "broken bonds"
-        opening.plot(pressure, np.array(levels["brokenBonds"]) / share, color=COLOURS["broken"], linewidth=1.4, label=bondLabel)
-        if events is not None and len(events["opened"]):
-            # Up to the last event of each pressure: within an avalanche the share says nothing about the pressure.
-            at, last = np.unique(np.array(events["gasPressure"])[::-1], return_index=True)
-            last = len(events["opened"]) - last
-            at, opened = (at - waterPressure) / 10.0**power, np.cumsum(events["opened"])[last - 1]
-            axes = opening if bondCount else opening.twinx()
-            line = axes.plot(at, opened / last, color=COLOURS["dot"], linewidth=1.4, drawstyle="steps-post", marker="o", markersize=2.5,
-                             label="opened / invaded throats")
-            axes.set_ylim(-0.03, 1.03)
-            shown = np.append(pressure, at)
-            if not bondCount:
-                axes.set_ylabel("share of the invaded throats")
-                opening.plot([], [], color=line[0].get_color(), linewidth=1.4, label="opened / invaded throats")
-        opening.set(ylabel="share" if bondCount else "broken bonds")
-        opening.legend(fontsize=7, frameon=False, loc="best")
-
-        for key, label, colour, line in (("displacement", "loaded grains", COLOURS["compression"], "-"),
-                                         ("displacementWithRattlers", "all grains", COLOURS["outline"], (0, (2, 2)))):
-            values = np.array(levels[key], dtype=float)
-            moving.plot(pressure, np.where(values > 0, values, np.nan), linestyle=line, color=colour, linewidth=1.4, label=label)
-        moving.set(yscale="log", ylabel="largest displacement / radius")
-        low, high = (math.log10(v) for v in moving.get_ylim())
-        moving.set_ylim(10.0 ** math.floor(low), 10.0 ** max(math.ceil(high), math.floor(low) + 1))  # whole decades
-        moving.legend(fontsize=7, frameon=False, loc="best")
-
-        for axes in (opening, moving):
-            axes.set(xlabel=f"capillary pressure $P_c$ [{unit}]", xlim=_rangeOf(shown))
-        if math.isfinite(breakthrough):
-            marker = {"color": "0.45", "linewidth": 0.9, "linestyle": (0, (4, 3)), "zorder": 1}
-            curve.axhline(breakthrough, **marker)
-            word = "breakthrough here or below" if breakthroughAtStart else "breakthrough"
-            curve.text(0.98, breakthrough, word, ha="right", va="bottom", fontsize=7, color="0.35")
-            opening.axvline(breakthrough, **marker)
-            moving.axvline(breakthrough, **marker)
-        for axes in figure.axes:
-            axes.tick_params(labelsize=8)
-            axes.spines["top"].set_visible(False)
-        for axes in (curve, opening, moving):
-            axes.spines["right"].set_visible(False)
-        if title:
-            figure.suptitle(title, fontsize=10, y=0.985)
-        saveFigure(figure, path)
-
-
-def _rangeOf(values):
-    if len(values) == 0:
-        return 0.0, 1.0
-    low, high = float(np.min(values)), float(np.max(values))
-    rim = 0.03 * (high - low) or 0.03 * abs(high) or 1.0
-    return low - rim, high + rim
-
-
 def forceScaleOf(*snapshots):
     """Contact force [N] that the standard width stands for: a high percentile over all the snapshots, > 0."""
     forces = np.concatenate([np.abs(s.normalForce) for s in snapshots])
@@ -150,28 +72,58 @@ def quantity(value, unit, digits=3):
     return f"{value / 10.0**power:.{digits}g} {prefixes[power]}{unit}"
 
 
+def prefix(highest, unit):
+    """The power of a thousand that makes ``highest`` a number from 1 to 1000, and the unit with its prefix."""
+    if not highest > 0:
+        return 1.0, unit
+    power = min(max(3 * math.floor(math.log10(highest) / 3 + 1e-12), -9), 6)
+    return 10.0**power, {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}[power] + unit
+
+
+def saySo(axes, text):
+    """Say in a panel why it is empty."""
+    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", fontsize=8, color="0.45")
+    axes.set_yticks([])
+    axes.minorticks_off()
+
+
+def putLegend(axes):
+    """A legend of what the axes hold, where it hides least; none where they hold nothing."""
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(fontsize=7, frameon=False, loc="best")
+
+
+def fitSample(s, width):
+    """Inches per metre, and the size of a sample's picture [inches]: ``width`` wide, but not more than twice as high."""
+    across, up = s.box[1] - s.box[0], s.box[3] - s.box[2]
+    scale = min(width / across, 2 * width / up)
+    return scale, scale * across, scale * up
+
+
 def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale):
     # Everything in inches: rims around the samples, and room for title, scale bar and legend outside of them. One scale
     # of lengths for all panels, so that a sample that was pushed apart looks larger; but 1 mm beside 1 um needs two.
-    rim, gap, head = 0.18, 0.3, 0.36
+    rim, gap = 0.18, 0.3
     sides = np.array([(s.box[1] - s.box[0], s.box[3] - s.box[2]) for s in snapshots])
     alike = np.max(sides[:, 0]) <= 2 * np.min(sides[:, 0])
-    inches = width / (np.full(len(sides), np.max(sides[:, 0])) if alike else sides[:, 0])
+    inches = np.array([fitSample(s, width)[0] for s in snapshots])
+    inches = np.full(len(sides), np.min(inches)) if alike else inches
     height = np.max(inches * sides[:, 1])
     scales = [forceScale or forceScaleOf(*(snapshots if alike else [s])) for s in snapshots]
+    names = [titleOf(_stateOf(s) if title is None else title, width) for s, title in zip(snapshots, titles)]
+    head = 0.05 + max(high for _, high in names)
     room = len(snapshots) * width + (len(snapshots) - 1) * gap
     handles = _legend(snapshots, 72 * inches[0], forces, bonds, dots, scales, alike)
     columns = _legendColumns(handles, room)
     foot = 0.42 + 0.135 * math.ceil(len(handles) / columns)
     total = np.array([room + 2 * rim, head + height + foot])
     with newFigure(total) as figure:
-        for k, (snapshot, (across, up), title) in enumerate(zip(snapshots, inches[:, None] * sides, titles)):
-            x = rim + k * (width + gap)
-            axes = figure.add_axes([x / total[0], foot / total[1], across / total[0], up / total[1]])
+        for k, (snapshot, (across, up), (title, _)) in enumerate(zip(snapshots, inches[:, None] * sides, names)):
+            middle = rim + k * (width + gap) + 0.5 * width
+            axes = figure.add_axes([(middle - 0.5 * across) / total[0], foot / total[1], across / total[0], up / total[1]])
             _drawSample(axes, snapshot, 72 * inches[k], forces, bonds, dots, scales[k])
-            _drawScaleBar(axes, snapshot, inches[k])
-            figure.text((x + across / 2) / total[0], 1 - 0.5 * head / total[1], _stateOf(snapshot) if title is None else title,
-                        ha="center", va="center", fontsize=10)
+            drawScaleBar(axes, snapshot, inches[k])
+            figure.text(middle / total[0], 1 - 0.5 * head / total[1], title, ha="center", va="center", fontsize=10)
         figure.legend(handles=handles, ncol=columns, loc="lower left", bbox_to_anchor=(rim / total[0], 0.05 / total[1]), fontsize=7, frameon=False,
                       borderaxespad=0, borderpad=0, handlelength=1.5, columnspacing=1.3, handletextpad=0.5, labelspacing=0.35)
         saveFigure(figure, path)
@@ -206,7 +158,7 @@ def _drawSample(axes, s, points, forces, bonds, dots, scale):
         axes.add_collection(LineCollection(bondStrokes(s), colors=COLOURS["broken"], linewidths=_strokeWidth(radius), capstyle="round", zorder=6))
     axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, edgecolor=COLOURS["wall"], linewidth=1.2,
                              zorder=7, clip_on=False))
-    _drawInlet(axes, s, points)
+    drawInlet(axes, s, points)
     axes.set(xlim=(left, right), ylim=(bottom, top))
     axes.set_axis_off()
 
@@ -251,9 +203,11 @@ def bondStrokes(s):
     return np.stack([middle - half, middle + half], axis=1)
 
 
-def _drawInlet(axes, s, points):
+def drawInlet(axes, s, points, **marker):
+    """Where the gas comes in: a bar along the wall, or marks at the points; ``points`` (of a line's width) per metre."""
     if s.inletPoints.size:
-        axes.plot(*s.inletPoints.T, marker="o", markersize=6, markerfacecolor="none", markeredgecolor=COLOURS["inlet"], linestyle="none", zorder=8)
+        marker = {"marker": "o", "markersize": 6, "markerfacecolor": "none", "markeredgecolor": COLOURS["inlet"], **marker}
+        axes.plot(*s.inletPoints.T, linestyle="none", zorder=9, **marker)
     if s.inletWall and s.inletTo > s.inletFrom:
         # A bar just outside of the wall, over the stretch that takes the gas.
         axis, place = WALL_AXIS[s.inletWall], s.box[WALL_NAMES.index(s.inletWall)]
@@ -264,7 +218,7 @@ def _drawInlet(axes, s, points):
         axes.plot(*line.T, color=COLOURS["inlet"], linewidth=4, solid_capstyle="butt", clip_on=False, zorder=8)
 
 
-def _drawScaleBar(axes, s, inches):
+def drawScaleBar(axes, s, inches):
     """A bar of 1, 2 or 5 units, at most a quarter of the sample, below its right corner; ``inches`` per metre."""
     left, right, bottom, _ = s.box
     room = (right - left) / 4
@@ -308,6 +262,21 @@ def _legendColumns(handles, room):
         if sum(0.049 * n + 0.32 for n in longest) <= room:
             return columns
     return 1
+
+
+def titleOf(title, width, size=10):
+    """A title for a figure ``width`` inches wide: its text, in as many lines as it takes (three at most), and the height [inches]."""
+    if not title:
+        return "", 0.0
+    # 0.6 of the size is the mean width of a letter, with room to spare.
+    lines = textwrap.wrap(title, max(10, int((width - 0.3) * 72 / (0.56 * size))), max_lines=3, placeholder=" …")
+    return "\n".join(lines), 0.14 + len(lines) * 1.25 * size / 72
+
+
+def putTitle(figure, text, size=10):
+    """Put what :func:`titleOf` gave above a figure."""
+    if text:
+        figure.suptitle(text, fontsize=size, y=1 - 0.05 / figure.get_figheight(), va="top")
 
 
 @contextmanager

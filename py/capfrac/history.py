@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from capfrac.figures import COLOURS, newFigure, saveFigure
-from capfrac.fracture.passage import gasOfTheInlet
+from capfrac.figures import COLOURS, newFigure, prefix, putLegend, putTitle, saveFigure, saySo, titleOf
 
 
 def levelsToTheEnd(gas, shot):
@@ -30,73 +29,96 @@ def levelsToTheEnd(gas, shot):
     return {name: values + [row[name]] for name, values in levels.items()}
 
 
-def courseToTheEnd(gas, shot):
-    """The history of a ``GasInvasionEngine``, a dict of lists as of ``gas.history()``, up to the state of the snapshot ``shot``, taken just now."""
-    course = gas.history()
-    if course["iteration"] and course["iteration"][-1] >= shot.iteration:
-        return course
-    connected = float(np.array(gas.cells()["gas"])[gasOfTheInlet(shot)].sum())
-    row = {"time": shot.time, "iteration": shot.iteration, "gasPressure": shot.gasPressure, "connectedVolume": connected, "mass": gas.gasLedger()["injected"],
-           "gasSaturation": shot.gasSaturation, "brokenBonds": len(shot.brokenBonds), "level": shot.level}
-    return {name: values + [row[name]] for name, values in course.items()}
-
-
-def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, waterPressure=0.0, title=None):
+def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, waterPressure=0.0, title=None, end=None):
     """Draw P_c over time, with the pores that the gas entered, and below it saturation and broken bonds.
 
     ``history`` and ``events`` are the dicts of ``gas.history()`` and ``gas.events()``; ``breakthroughIter`` is the
     engine's, -1 where the gas did not reach the outlet. Times count from ``startTime`` [s]; ``waterPressure`` [Pa] is
-    taken off the pressures. The first throat that had opened and the breakthrough are marked. Without a row of the
-    history the panels stay empty.
+    taken off the pressures. The first throat that had opened and the breakthrough are marked. ``end``: the snapshot with
+    which the run ended, which need not be a row of the history. A panel without anything to show says so.
     """
-    time = np.array(history["time"], dtype=float) - startTime
-    pressure = np.array(history["gasPressure"], dtype=float) - waterPressure
-    second, unit = _prefix(np.max(time, initial=0.0), "s")
-    pascal, pressureUnit = _prefix(np.max(pressure, initial=0.0), "Pa")
-    with newFigure((6.4, 4.2)) as figure:
-        grid = {"left": 0.115, "right": 0.885, "bottom": 0.115, "top": 0.915 if title else 0.97, "hspace": 0.12, "height_ratios": (2, 1)}
+    rows = {name: list(history[name]) for name in ("time", "gasPressure", "gasSaturation", "brokenBonds")}
+    if end is not None:
+        for name, value in (("time", end.time), ("gasPressure", end.gasPressure), ("gasSaturation", end.gasSaturation),
+                            ("brokenBonds", len(end.brokenBonds))):
+            rows[name].append(value)
+    entries = events if events is not None else {"time": [], "gasPressure": [], "opened": [], "iteration": []}
+    times, pressures = [*rows["time"], *entries["time"]], [*rows["gasPressure"], *entries["gasPressure"]]
+    second, unit = prefix(max(times, default=startTime) - startTime, "s")
+    pascal, pressureUnit = prefix(max(pressures, default=waterPressure) - waterPressure, "Pa")
+    course = _Lines(startTime, second, waterPressure, pascal)
+    text, head = titleOf(title, 6.4)
+    total = 4.2 + max(0.0, head - 0.3)
+    with newFigure((6.4, total)) as figure:
+        grid = {"left": 0.115, "right": 0.885, "bottom": 0.48 / total, "top": 1 - max(head, 0.13) / total, "hspace": 0.12,
+                "height_ratios": (2, 1)}
         above, below = figure.subplots(2, 1, sharex=True, gridspec_kw=grid)
-        # Through the entries, too: between two rows of the history the pressure may jump.
-        entries = events if events is not None else {"time": [], "gasPressure": []}
-        at = np.concatenate([time, np.array(entries["time"], dtype=float) - startTime])
-        values = np.concatenate([pressure, np.array(entries["gasPressure"], dtype=float) - waterPressure])
-        order = np.argsort(at, kind="stable")
-        above.plot(at[order] / second, values[order] / pascal, color=COLOURS["gas"], linewidth=1.3, zorder=2)
-        if events is not None and len(events["time"]):
-            at = (np.array(events["time"]) - startTime) / second
-            entered = (np.array(events["gasPressure"]) - waterPressure) / pascal
-            opened = np.array(events["opened"], dtype=bool)
-            above.plot(at[~opened], entered[~opened], ".", color=COLOURS["dot"], markersize=4, zorder=3, label="pore entered, rigid throat")
-            above.plot(at[opened], entered[opened], ".", color=COLOURS["broken"], markersize=4, zorder=3, label="pore entered, opened throat")
-            if opened.any():
-                first = int(np.flatnonzero(opened)[0])
-                above.plot(at[first], entered[first], "^", color=COLOURS["broken"], markersize=8, markerfacecolor="none", zorder=4, label="first opened throat")
-            if breakthroughIter in events["iteration"]:
-                last = at[events["iteration"].index(breakthroughIter)]
-                for axes in (above, below):
-                    axes.axvline(last, color="0.45", linewidth=0.9, linestyle=(0, (4, 3)), zorder=1, label="breakthrough" if axes is above else None)
-            above.legend(fontsize=7, frameon=False, loc="best")
+        _drawPressure(above, course, times, pressures, entries, breakthroughIter)
         above.set(ylabel=f"capillary pressure $P_c$ [{pressureUnit}]")
-        below.plot(time / second, history["gasSaturation"], color=COLOURS["dot"], linewidth=1.3)
         below.set(xlabel=f"time since the start of the injection [{unit}]", ylabel="gas saturation $S_g$")
-        below.set_ylim(bottom=0)
-        bonds = below.twinx()
-        bonds.plot(time / second, history["brokenBonds"], color=COLOURS["broken"], linewidth=1.1, drawstyle="steps-post")
-        bonds.set_ylabel("broken bonds", color=COLOURS["broken"])
-        bonds.set_ylim(0, 1.05 * max(1, *history["brokenBonds"], 1))
-        below.yaxis.label.set_color(COLOURS["dot"])
+        bonds = _drawGas(below, course, rows)
+        through = course.breakthrough(entries, breakthroughIter)
+        if math.isfinite(through):
+            for axes in (above, below):
+                axes.axvline(through, color="0.45", linewidth=0.9, linestyle=(0, (4, 3)), zorder=1, label="breakthrough" if axes is above else None)
         for axes in figure.axes:
             axes.tick_params(labelsize=8)
             axes.spines["top"].set_visible(False)
         above.spines["right"].set_visible(False)
-        if title:
-            figure.suptitle(title, fontsize=10, y=0.985)
+        putLegend(above)
+        if bonds is not None:
+            below.legend(handles=[*below.get_legend_handles_labels()[0], *bonds.get_legend_handles_labels()[0]], fontsize=7,
+                         frameon=False, loc="best")
+        putTitle(figure, text)
         saveFigure(figure, path)
 
 
-def _prefix(highest, unit):
-    """The power of a thousand that makes `highest` a number from 1 to 1000, and the unit with its prefix."""
-    if not highest > 0:
-        return 1.0, unit
-    power = min(max(3 * math.floor(math.log10(highest) / 3 + 1e-12), -9), 6)
-    return 10.0**power, {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}[power] + unit
+class _Lines:
+    """Times and pressures in the units of the axes."""
+
+    def __init__(self, start, second, water, pascal):
+        self.start, self.second, self.water, self.pascal = start, second, water, pascal
+
+    def time(self, values):
+        return (np.array(values, dtype=float) - self.start) / self.second
+
+    def pressure(self, values):
+        return (np.array(values, dtype=float) - self.water) / self.pascal
+
+    def breakthrough(self, events, iteration):
+        places = [k for k, number in enumerate(events["iteration"]) if number == iteration]
+        return float(self.time(events["time"])[places[0]]) if places else math.nan
+
+
+def _drawPressure(axes, course, times, pressures, events, breakthroughIter):
+    if not times:
+        saySo(axes, "the run ended before its first level")
+        return
+    # Through the entries, too: between two rows of the history the pressure may jump.
+    at, values = course.time(times), course.pressure(pressures)
+    order = np.argsort(at, kind="stable")
+    axes.plot(at[order], values[order], color=COLOURS["gas"], linewidth=1.3, zorder=2, label="$P_c$", marker="." if len(at) == 1 else None)
+    at, entered, opened = course.time(events["time"]), course.pressure(events["gasPressure"]), np.array(events["opened"], dtype=bool)
+    for name, colour, chosen in (("pore entered, rigid throat", COLOURS["dot"], ~opened), ("pore entered, opened throat", COLOURS["broken"], opened)):
+        if chosen.any():
+            axes.plot(at[chosen], entered[chosen], ".", color=colour, markersize=4, zorder=3, label=name)
+    if opened.any():
+        first = int(np.flatnonzero(opened)[0])
+        axes.plot(at[first], entered[first], "^", color=COLOURS["broken"], markersize=8, markerfacecolor="none", zorder=4,
+                  label="first opened throat")
+
+
+def _drawGas(axes, course, rows):
+    """Saturation, and broken bonds on axes of their own, which are returned; None without a row."""
+    if not rows["time"]:
+        saySo(axes, "no row of the history")
+        return None
+    time, dot = course.time(rows["time"]), "." if len(rows["time"]) == 1 else None
+    axes.plot(time, rows["gasSaturation"], color=COLOURS["dot"], linewidth=1.3, marker=dot, label="gas saturation")
+    axes.set_ylim(bottom=0)
+    bonds = axes.twinx()
+    bonds.plot(time, rows["brokenBonds"], color=COLOURS["broken"], linewidth=1.1, drawstyle="steps-post", marker=dot, label="broken bonds")
+    bonds.set_ylabel("broken bonds", color=COLOURS["broken"])
+    bonds.set_ylim(0, 1.05 * max(1, *rows["brokenBonds"]))
+    axes.yaxis.label.set_color(COLOURS["dot"])
+    return bonds

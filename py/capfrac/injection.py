@@ -17,7 +17,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from capfrac import casescene, environment, export, figures, fracture, history, mode, namedfiles, sediment, snapshot
+from capfrac import casescene, curve, environment, export, figures, fracture, history, mode, namedfiles, sediment, snapshot
 from capfrac.case import readCase, resolveCase
 from capfrac.casepacking import checkPacking
 from capfrac.errors import CapfracError, RunFolderError, SceneError
@@ -263,6 +263,19 @@ class Run:
                              f"{', '.join(found)}; begin the ramp lower to find them")
         return found
 
+    def drawCourse(self, levels, last, bounds):
+        """Draw curve.png and history.png; ``last``: the snapshot at the end, ``bounds``: see :meth:`upperBounds`."""
+        from yade import O
+
+        gas, sample, course = self.gas, self.folder.summary["sample"], self.gas.history()
+        same = {"events": gas.events(), "waterPressure": gas.waterPressure, "title": self.case["case"]["title"],
+                "startTime": sample["startTime [s]"], "breakthroughIter": gas.breakthroughIter}
+        levels = {**levels, "time": [O.time - (O.iter - iteration) * O.dt for iteration in levels["iteration"]]}
+        curve.drawCapillaryCurve(levels, self.folder.path / "curve.png", bondCount=sample["bondsHolding"],
+                                 breakthroughPressure=gas.breakthroughPressure, over="pressure" if self.ramped else "time",
+                                 history=course, breakthroughAtStart="breakthroughPressure" in bounds, **same)
+        history.drawHistory(course, self.folder.path / "history.png", end=last, **same)
+
     def finish(self, reason):
         """Write what a finished run has; the checkpoint goes."""
         last = self.picture("end")
@@ -278,18 +291,13 @@ class Run:
                                    **saturation})
         pictures = self.case["output"]["pictures"] != "none"
         if pictures:
-            figures.drawCapillaryCurve(levels, self.folder.path / "curve.png", events=gas.events(), bondCount=self.folder.summary["sample"]["bondsHolding"],
-                                       breakthroughPressure=gas.breakthroughPressure, waterPressure=gas.waterPressure,
-                                       title=self.case["case"]["title"],
-                                       breakthroughAtStart="breakthroughPressure" in bounds)
+            self.drawCourse(levels, last, bounds)
         results = {
             "saturation": saturation, "upperBounds": bounds, "displacementWithRattlersAtEnd [r]": float(moved.max()),
             "largestDisplacementAtEnd [r]": modes["modeAtEnd"]["largestDisplacement"], "remeshes": gas.nRemeshes,
             "forceNetwork": mode.forceNetworkChange(self.start, last),
             "ledger [m^3]": dict(gas.volumes()), "iterations": last.iteration}
-        if pictures:
-            history.drawHistory(course, self.folder.path / "history.png", events=gas.events(), breakthroughIter=gas.breakthroughIter,
-                                startTime=self.folder.summary["sample"]["startTime [s]"], waterPressure=gas.waterPressure, title=self.case["case"]["title"])
+        course = gas.history()
         highest = max([*course["gasPressure"], *gas.events()["gasPressure"], last.gasPressure])
         results["gas"] = {**{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
                           "highestCapillaryPressure [Pa]": highest - gas.waterPressure}

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from capfrac import export, figures, snapshot
+from capfrac import curve, export, figures, snapshot
 from capfrac.errors import CapfracError, CaseError
 
 meshio = pytest.importorskip("meshio")
@@ -187,11 +187,11 @@ def test_capillaryCurveIsDrawn(tmp_path):
               "displacementWithRattlers": [0, 1e-3, 3e-2], "atRest": [True, False, True]}
     events = {"gasPressure": [110.0, 110.0, 120.0], "opened": [False, True, True]}
     path = tmp_path / "curve.png"
-    figures.drawCapillaryCurve(levels, path, events=events, breakthroughPressure=115.0, bondCount=10)
+    curve.drawCapillaryCurve(levels, path, events=events, breakthroughPressure=115.0, bondCount=10)
     assert pixelsLike(path, figures.COLOURS["broken"]) > 100
     assert pixelsLike(path, figures.COLOURS["dot"]) > 100
-    figures.drawCapillaryCurve({**levels, "displacement": [0] * 3, "displacementWithRattlers": [0] * 3}, path, events=events)
-    figures.drawCapillaryCurve({name: [] for name in levels}, path, events={name: [] for name in events})
+    curve.drawCapillaryCurve({**levels, "displacement": [0] * 3, "displacementWithRattlers": [0] * 3}, path, events=events)
+    curve.drawCapillaryCurve({name: [] for name in levels}, path, events={name: [] for name in events})
     assert pixelsLike(path, figures.COLOURS["dot"]) < 100  # but for the legend
 
 
