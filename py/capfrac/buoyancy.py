@@ -5,9 +5,9 @@ dP_c/dz = (rho_w - rho_g) g. Gas that rises from below leaves ever higher capill
 unstable: thin fingers); gas that is pushed down from above leaves ever lower ones (stable).
 """
 
-import math
 
 from capfrac.errors import CaseError
+from capfrac.values import isNotNegative, isPositive, shown
 
 STANDARD_GRAVITY = 9.80665  #: [m/s^2]
 
@@ -20,10 +20,12 @@ def criticalColumn(capillaryPressure, waterDensity, gasDensity, g=STANDARD_GRAVI
     >= 0, 0 <= ``gasDensity`` < ``waterDensity``. Raises :class:`CaseError` naming the value otherwise.
     """
     for name, value, good, allowed in (
-            ("capillaryPressure [Pa]", capillaryPressure, capillaryPressure >= 0, ">= 0"), ("gasDensity [kg/m^3]", gasDensity, gasDensity >= 0, ">= 0"),
-            ("waterDensity [kg/m^3]", waterDensity, waterDensity > gasDensity, f"> gasDensity = {gasDensity}"), ("g [m/s^2]", g, g > 0, "> 0")):
-        if not (good and math.isfinite(value)):
-            raise CaseError(f"{name} = {value}, allowed: finite and {allowed}")
+            ("capillaryPressure [Pa]", capillaryPressure, isNotNegative, ">= 0"),
+            ("gasDensity [kg/m^3]", gasDensity, isNotNegative, ">= 0"),
+            ("waterDensity [kg/m^3]", waterDensity, lambda value: isPositive(value) and value > gasDensity,
+             f"> gasDensity = {shown(gasDensity)}"), ("g [m/s^2]", g, isPositive, "> 0")):
+        if not good(value):
+            raise CaseError(f"{name} = {shown(value)}, allowed: finite and {allowed}")
     return capillaryPressure / ((waterDensity - gasDensity) * g)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from capfrac import figures, sediment
 from capfrac.errors import CaseError, SceneError
+from capfrac.values import isNotNegative, isPositive, shown
 
 #: Columns of the table of :func:`pressureCycle` that are numbers.
 COLUMNS = ("capillaryPressure", "gasSaturation", "trappedGas", "iteration")
@@ -27,12 +28,12 @@ def pressureCycle(gas, stages, increment, progress=None):
     inlet) [-], ``atOutlet`` (gas that hangs on the inlet touches the outlet), ``iteration``. The engine's own ramp is switched off.
     ``progress(stage, P_c, saturation)`` is called after each level. Raises :class:`CaseError` for impossible values.
     """
-    stages = [(str(stage[0]), float(stage[1]), float(stage[2] if len(stage) > 2 else increment)) for stage in stages]
+    stages = [(str(stage[0]), stage[1], stage[2] if len(stage) > 2 else increment) for stage in stages]
     for _, end, step in stages:
-        if not (np.isfinite(step) and step > 0):
-            raise CaseError(f"increment = {step:g} Pa, allowed: finite and > 0")
-        if not (np.isfinite(end) and end >= 0):
-            raise CaseError(f"a stage ends at {end:g} Pa, allowed: finite and >= 0")
+        if not isPositive(step):
+            raise CaseError(f"increment = {shown(step)} Pa, allowed: finite and > 0")
+        if not isNotNegative(end):
+            raise CaseError(f"a stage ends at {shown(end)} Pa, allowed: finite and >= 0")
     table = {name: [] for name in ("stage", "capillaryPressure", "gasSaturation", "trappedGas", "atOutlet", "iteration")}
     gas.pressureIncrement = 0
     for name, end, step in stages:

@@ -18,9 +18,12 @@ import numpy as np
 
 from capfrac import environment
 from capfrac.errors import CapfracError, CaseError
+from capfrac.values import asInt, isPositive, shown
 
 #: Where the gas comes in: along the bottom, or in the middle.
 INLETS = ("side", "centre")
+#: Largest width or height of a network, and largest number of its pores: more do not fit into the memory of a machine.
+MOST_PORES = 100_000_000
 #: Width of the rim of points around a triangulation's box, in (area per pore)^(1/2): the outer triangles of random points are slivers, and cut off.
 _RIM = 8
 
@@ -120,11 +123,11 @@ def delaunay(width, height, seed=0, inlet="side", rMin=1e-3, rMax=None, solid=0.
 
     _check(width=(width, 2), height=(height, 2))
     _checkInlet(inlet)
-    rMax = 5 / 3 * rMin if rMax is None else rMax
-    if not (math.isfinite(rMax) and rMax >= rMin > 0):
-        raise CaseError(f"rMin = {rMin}, rMax = {rMax} m, allowed: 0 < rMin <= rMax")
-    if not 0 < solid < math.inf:
-        raise CaseError(f"solid = {solid}, allowed: > 0")
+    rMax = 5 / 3 * rMin if rMax is None and isPositive(rMin) else rMax
+    if not (isPositive(rMin) and isPositive(rMax) and rMax >= rMin):
+        raise CaseError(f"rMin = {shown(rMin)}, rMax = {shown(rMax)} m, allowed: 0 < rMin <= rMax")
+    if not isPositive(solid):
+        raise CaseError(f"solid = {shown(solid)}, allowed: > 0")
     random = np.random.default_rng(seed)
     # Two triangles a grain; the mean of r^2 between the two radii is (rMin^2 + rMin rMax + rMax^2)/3.
     spacing = math.sqrt(0.5 * math.pi * (rMin**2 + rMin * rMax + rMax**2) / 3 / solid)
@@ -184,8 +187,11 @@ def _assemble(left, right, entry, poreX, poreY, outlet, start, spacing, box):
 
 def _check(**values):
     for name, (value, low) in values.items():
-        if not (isinstance(value, (int, np.integer)) and value >= low):
-            raise CaseError(f"{name} = {value}, allowed: whole numbers >= {low}")
+        if not low <= (asInt(value) or 0) <= MOST_PORES:
+            raise CaseError(f"{name} = {shown(value)}, allowed: whole numbers >= {low}, up to {MOST_PORES}")
+    if math.prod(value for value, _ in values.values()) > MOST_PORES:
+        raise CaseError(f"{' x '.join(f'{name} = {value}' for name, (value, _) in values.items())}, "
+                        f"allowed: up to {MOST_PORES} pores")
 
 
 def _checkInlet(inlet):

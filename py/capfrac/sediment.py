@@ -340,7 +340,10 @@ def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxStep
 
 def _stressesAmiss(sample, stressV, stressH):
     """What is wrong with stresses [Pa] that the walls are to bear: texts."""
-    for name, value in (("stressV", stressV), ("stressH", stressH)):
+    stresses = {"stressV": stressV, "stressH": stressH}
+    if isPositive(stressV) and stressV == stressH:
+        del stresses["stressH"]  # said once
+    for name, value in stresses.items():
         if not isPositive(value):
             yield f"{name} = {shown(value)} Pa, allowed: > 0"
         else:

@@ -8,7 +8,7 @@ import pytest
 
 from capfrac.case import readCase
 from capfrac.errors import CaseError
-from capfrac.sweep import readSweep, resolveSweep, shippedSweeps
+from capfrac.sweep import readSweep, resolveSweep, runSweep, shippedSweeps
 from capfrac.sweep.formulas import Formula
 from capfrac.sweep.sweepfile import refinementLevels
 
@@ -261,3 +261,12 @@ def test_shippedSweepsCanBeRun(name):
         assert case["ramp"]["start"] < min(4.65 * case["gas"]["interfacialTension"] / r, case["stress"]["horizontal"] * 1.0001 + case["cohesion"]["chi"] * case["gas"]["interfacialTension"] / r)
         assert case["stress"]["vertical"] * 2 / case["grains"]["normalStiffness"] <= 0.0101
         assert case["output"]["fields"] is False
+
+
+@pytest.mark.parametrize("values", [dict(processes=0), dict(processes=True), dict(processes=2.5), dict(processes="2"),
+                                    dict(points=0), dict(points=-1), dict(points=1.0), dict(processes=None)])
+def test_countsThatAreNone(values, tmp_path):
+    name, value = next(iter(values.items()))
+    with pytest.raises(CaseError, match=f"{name} = {value!r}, allowed: a whole number >= 1"):
+        runSweep(resolveSweep(GOOD, "good"), tmp_path / "sweep", **values)
+    assert not (tmp_path / "sweep").exists()

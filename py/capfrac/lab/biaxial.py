@@ -17,6 +17,7 @@ from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
 from capfrac.runfolder import exactText
+from capfrac.values import isNotNegative, isPositive, shown
 
 #: Share of the largest deviator up to which the moduli are taken [-]: before grains slide on a large scale.
 ELASTIC_SHARE = 0.25
@@ -31,9 +32,10 @@ def biaxialTest(sample, stress, strain=0.08, bondStrength=0.0, inertialNumber=IN
     [Pa], ``poissonRatio``, ``bonds`` and ``brokenBonds``, ``quasiStatic``. Raises :class:`CaseError` for impossible values.
     """
     run = run or LabRun("biaxial", {})
-    for name, value, least in (("stress", stress, 0), ("strain", strain, 0), ("bondStrength", bondStrength, -1)):
-        if not (math.isfinite(value) and value > least and value >= 0):
-            raise CaseError(f"{name} = {value}, allowed: {'> 0' if least == 0 else '>= 0'}")
+    for name, value, good, allowed in (("stress", stress, isPositive, "> 0"), ("strain", strain, isPositive, "> 0"),
+                                       ("bondStrength", bondStrength, isNotNegative, ">= 0")):
+        if not good(value):
+            raise CaseError(f"{name} = {shown(value)}, allowed: {allowed}")
     box = Box(sample, run, inertialNumber)
 
     def prepare():

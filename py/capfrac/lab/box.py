@@ -21,6 +21,7 @@ import numpy as np
 from capfrac import sediment
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
+from capfrac.values import asFloat, isPositive, shown
 
 #: What the walls do in each mode; the bottom stays in all of them.
 MODES = {
@@ -45,8 +46,9 @@ class Box:
     """The walls around the sample of the current scene. ``run`` keeps rows and reference over interruptions."""
 
     def __init__(self, sample, run=None, inertialNumber=INERTIAL_NUMBER):
-        if not (0 < inertialNumber <= 1e-2):
-            raise CaseError(f"inertialNumber = {inertialNumber}, allowed: 0 < I <= 0.01 (quasi-static: up to 1e-3)")
+        if not (isPositive(inertialNumber) and inertialNumber <= 1e-2):
+            raise CaseError(f"inertialNumber = {shown(inertialNumber)}, allowed: 0 < I <= 0.01 (quasi-static: up to "
+                            "1e-3)")
         self.sample, self.run, self.inertialNumber = sample, run or LabRun("box", {}), inertialNumber
 
     @property
@@ -86,8 +88,8 @@ class Box:
         if name not in MODES:
             raise CaseError(f"mode = {name!r}, allowed: {', '.join(MODES)}")
         for key, value in (("stressH", stressH if name == "biaxial" else 1), ("meanStress", meanStress if name == "meanStress" else 1)):
-            if value is None or not (math.isfinite(value) and value > 0):
-                raise CaseError(f"{key} = {value} Pa with mode '{name}', allowed: > 0")
+            if not isPositive(value):
+                raise CaseError(f"{key} = {shown(value)} Pa with mode '{name}', allowed: > 0")
         servo = sediment.engine("servo")
         servo.dead = False
         servo.drivenWalls, servo.driveVelocity = ["top"] if name in STRAIN_DRIVEN else [], 0.0
@@ -133,8 +135,8 @@ class Box:
 
         self._requireMode(("isotropic", "k0"))
         for target in targets:
-            if not (math.isfinite(target) and target > 0):
-                raise CaseError(f"target stress = {target} Pa, allowed: > 0")
+            if not isPositive(target):
+                raise CaseError(f"target stress = {shown(target)} Pa, allowed: > 0")
         targets = list(targets)
         while self.run.data.setdefault("nTargets", 0) < len(targets):
             servo = sediment.engine("servo")
@@ -157,8 +159,9 @@ class Box:
         reference = self.run.data["reference"]
         least = max(4 * 2 * max(self._radii()), 0.5 * self.solidArea() / width)
         most = 1 - least / reference["height"]
-        if not (math.isfinite(strain) and strain <= most):
-            raise CaseError(f"strain = {strain}, allowed: up to {most:.3g} (a box of {reference['height']:.4g} m then holds no more than overlapping grains)")
+        if asFloat(strain) is None or strain > most:
+            raise CaseError(f"strain = {shown(strain)}, allowed: up to {most:.3g} (a box of {reference['height']:.4g} "
+                            "m then holds no more than overlapping grains)")
         if strain < -0.5:
             raise CaseError(f"strain = {strain}, allowed: >= -0.5")
 

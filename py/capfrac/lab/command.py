@@ -36,17 +36,20 @@ TITLES = {
 }
 
 
-def runTest(test, values, folder=None, restart=False, report=lambda text: None, base=".", threads=None):
-    """Run a test by name with resolved parameters (see :func:`parameters.resolve`); returns its results (a dict).
+def runTest(test, values, folder=None, restart=False, report=lambda text: None, base=".", threads=None, warnings=()):
+    """Run a test by name with parameters (see :func:`parameters.resolve`), which stay as they are; returns its results.
 
-    ``folder``: the run folder, or None; ``base``: where the paths of files in the parameters begin. An unfinished run in the
-    folder is taken up; a finished one is returned as it is. ``threads``: see :func:`capfrac.load_engines`.
+    ``folder``: the run folder, or None; ``base``: where the paths of files in the parameters begin; ``threads``: see
+    :func:`capfrac.load_engines`; ``warnings``: texts that are told with the test's own. An unfinished run in the folder
+    is taken up; a finished one is returned as it is. The results are a dict. Raises :class:`CaseError` for parameters
+    that are no such test's.
     """
     import capfrac
 
     capfrac.load_engines(threads)
     from yade import O
 
+    values, more = parameters.resolveTelling(test, values)
     sample = parameters.sedimentOf({**_defaults("settle")["grains"], **values["grains"]}, base)
     if sample.grading is not None:  # for people who read the summary
         values = {**values, "grading": {"name": type(sample.grading).__name__, **vars(sample.grading)}}
@@ -54,6 +57,8 @@ def runTest(test, values, folder=None, restart=False, report=lambda text: None, 
     if run.finished:
         report(f"{run.folder.path} holds this test already, finished")
         return run.summary["results"]
+    for text in (*warnings, *more):
+        run.warn(text)
     if sample.rMax > BOULDER:
         run.warn(f"grains of up to r = {sample.rMax:g} m, boulders: is a number in mm that is meant to be in m?")
     O.reset()
@@ -97,12 +102,17 @@ def main(arguments):
             raw, base = tomlfiles.readToml(Path(arguments.file)), Path(arguments.file).parent
         except OSError as problem:
             raise CaseError(f"the file '{arguments.file}' cannot be read ({problem.strerror})") from None
+    problems = []
     for text in arguments.set:
-        tomlfiles.override(raw, text)
-    values = parameters.resolve(test, raw, arguments.file or "arguments")
+        try:
+            tomlfiles.override(raw, text)
+        except CaseError as problem:
+            problems += problem.problems
+    values, warnings = parameters.resolveTelling(test, raw, arguments.file or "arguments", problems)
     folder = arguments.output or f"runs/lab-{test}"
     try:
-        results = runTest(test, values, folder, arguments.restart, _reporter(arguments.quiet), base, arguments.threads)
+        results = runTest(test, values, folder, arguments.restart, _reporter(arguments.quiet), base, arguments.threads,
+                          warnings)
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command takes the test up again from {folder}", file=sys.stderr)
         return 130

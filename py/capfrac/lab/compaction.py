@@ -17,6 +17,7 @@ from capfrac.errors import CaseError, SampleError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.run import LabRun
 from capfrac.runfolder import exactText
+from capfrac.values import isPositive, shown
 
 #: Strain at which a compaction towards a stress gives up [-].
 LARGEST_STRAIN = 0.45
@@ -50,12 +51,12 @@ def compact(sample, preload=10e3, strain=0.25, loops=(), unloadTo=0.1, voidRatio
     impossible values, :class:`SampleError` when the sample cannot be brought to the preload or control is lost.
     """
     run = run or LabRun("compact", {})
-    loops = sorted(loops)
     for name, value in (("preload", preload), ("strain", strain), ("unloadTo", unloadTo)):
-        if not (math.isfinite(value) and value > 0):
-            raise CaseError(f"{name} = {value}, allowed: > 0")
-    if any(not (0 < at < strain) for at in loops):
-        raise CaseError(f"loops = {list(loops)}, allowed: strains between 0 and strain = {strain}")
+        if not isPositive(value):
+            raise CaseError(f"{name} = {shown(value)}, allowed: > 0")
+    if not all(isPositive(at) and at < strain for at in loops):
+        raise CaseError(f"loops = {shown(list(loops))}, allowed: strains between 0 and strain = {strain}")
+    loops = sorted(loops)
     box = Box(sample, run, inertialNumber)
     run.stage("sample", lambda: _prepare(sample, box, preload, run))
     for number, at in enumerate([*loops, strain]):
@@ -156,8 +157,8 @@ def findStiffness(sample, compressionIndex, fitFrom=100e3, fitTo=1e6, voidRatio=
     a C_c that no stiffness gives.
     """
     run = run or LabRun("fit", {})
-    if not (math.isfinite(compressionIndex) and compressionIndex > 0):
-        raise CaseError(f"compressionIndex = {compressionIndex}, allowed: > 0")
+    if not isPositive(compressionIndex):
+        raise CaseError(f"compressionIndex = {shown(compressionIndex)}, allowed: > 0")
     ratio, stiffness, tried = sample.shearStiffness / sample.normalStiffness, sample.normalStiffness, []
     for _ in range(LARGEST_SEARCH):
         other = sediment.changed(sample, normalStiffness=stiffness, shearStiffness=ratio * stiffness)

@@ -11,16 +11,23 @@ from capfrac import grading, keys
 from capfrac.errors import CaseError
 from capfrac.keys import Key, notNegative, positive
 from capfrac.sediment import Sediment
+from capfrac.values import LARGEST_SEED, MOST_GRAINS, isPositive, shown
 
+#: Condition of what belongs to radii that are uniform between two.
+UNIFORM = "grains.distribution = 'uniform'"
 GRAINS = (
-    Key("grains", "count", int, "-", 300, "Number of grains.", low=10),
-    positive("grains", "rMin", "m", 1e-3, "Smallest grain radius (uniform)."),
-    Key("grains", "rMax", float, "m", None, "Largest grain radius (uniform); default 5/3 rMin.", low=0, openLow=True),
+    Key("grains", "count", int, "-", 300, "Number of grains.", low=10, high=MOST_GRAINS),
+    positive("grains", "rMin", "m", 1e-3, "Smallest grain radius (uniform).", usedWith=UNIFORM),
+    Key("grains", "rMax", float, "m", None, "Largest grain radius (uniform); default 5/3 rMin.", low=0, openLow=True,
+        usedWith=UNIFORM),
     Key("grains", "distribution", str, "-", "uniform", "Size distribution.", choices=("uniform", "lognormal", "sieve")),
-    positive("grains", "median", "m", 1e-3, "Median radius (lognormal)."),
-    positive("grains", "spread", "-", 0.25, "Standard deviation of ln r (lognormal)."),
-    Key("grains", "sieve", str, "-", "", "Sieve curve (sieve): CSV with the columns diameter [m] and passing [%] by mass."),
-    Key("grains", "seed", int, "-", 1, "Seed of all random numbers; the same seed gives the same run.", low=0),
+    positive("grains", "median", "m", 1e-3, "Median radius (lognormal).", usedWith="grains.distribution = 'lognormal'"),
+    positive("grains", "spread", "-", 0.25, "Standard deviation of ln r (lognormal).",
+             usedWith="grains.distribution = 'lognormal'"),
+    Key("grains", "sieve", str, "-", "", "Sieve curve (sieve): CSV with the columns diameter [m] and passing [%] by "
+        "mass.", usedWith="grains.distribution = 'sieve'"),
+    Key("grains", "seed", int, "-", 1, "Seed of all random numbers; the same seed gives the same run.", low=0,
+        high=LARGEST_SEED),
     positive("grains", "density", "kg/m^3", 2650.0, "Density of the grains."),
     positive("grains", "normalStiffness", "N/m", 1e7, "Normal stiffness k_n of a contact."),
     Key("grains", "shearStiffness", float, "N/m", None, "Shear stiffness k_s of a contact; default k_n.", low=0),
@@ -62,8 +69,11 @@ TESTS = {
                      Key("", "safety", float, "-", 0.6, "Safety factor of the time step.", low=0, openLow=True, high=0.9)),
     "path": _own("path", Key("", "mode", str, "-", "isotropic", "What the walls do.", choices=("uniaxial", "biaxial", "meanStress", "isotropic", "k0")),
                  positive("", "preload", "Pa", 10e3, "Isotropic stress at which the test begins."),
-                 Key("", "strain", float, "-", 0.05, "Vertical strain at the end (modes driven by strain).", low=0, openLow=True, high=0.5),
-                 Key("", "stresses", list, "Pa", (20e3, 50e3, 100e3, 200e3), "Stresses, one after the other (modes driven by stress)."), _INERTIAL),
+                 Key("", "strain", float, "-", 0.05, "Vertical strain at the end (modes driven by strain).", low=0,
+                     openLow=True, high=0.5, usedWith="path.mode != 'isotropic' and path.mode != 'k0'"),
+                 Key("", "stresses", list, "Pa", (20e3, 50e3, 100e3, 200e3),
+                     "Stresses, one after the other (modes driven by stress).",
+                     usedWith="path.mode = 'isotropic' or path.mode = 'k0'"), _INERTIAL),
     "compact": _own("compact", *_COMPACTION),
     "fit": _own("fit", positive("", "compressionIndex", "-", 0.1, "C_c that is asked for: fall of the void ratio per tenfold stress."),
                 *(key for key in _COMPACTION if key.name not in ("loops", "unloadTo", "strain", "fitFrom", "fitTo")),
@@ -125,13 +135,36 @@ TESTS = {
 
 
 def resolve(test, raw, source="arguments"):
-    """Check the sections ``raw`` against the keys of ``test`` and fill in the defaults. Raises :class:`CaseError`."""
-    values = keys.resolve(raw, TESTS[test], source)
-    for name, entries in values.items():
-        for key, value in entries.items():
-            if isinstance(value, list) and not all(isinstance(v, (int, float)) and not isinstance(v, bool) and v > 0 for v in value):
-                raise CaseError(f"{source}: {name}.{key} = {value}, allowed: numbers > 0")
-    return values
+    """Check the sections ``raw`` against the keys of ``test`` and fill in the defaults.
+
+    Raises :class:`CaseError` with all problems.
+    """
+    return resolveTelling(test, raw, source)[0]
+
+
+def resolveTelling(test, raw, source="arguments", problems=()):
+    """As :func:`resolve`, with the texts on what is ignored: ``(sections, warnings)``.
+
+    ``problems``: what is wrong already.
+    """
+    if test not in TESTS:
+        raise CaseError(f"test = {shown(test)}, allowed: {', '.join(TESTS)}")
+    values, found, warnings = keys.check(raw, TESTS[test], (_listsAmiss, _sieveAmiss))
+    if problems or found:
+        raise CaseError(*problems, *found, source=source)
+    return {section: dict(entries) for section, entries in values.items()}, warnings
+
+
+def _listsAmiss(values):
+    for section, entries in values.items():
+        for name, value in entries.items():
+            if isinstance(value, list) and not all(map(isPositive, value)):
+                yield f"{section}.{name} = {shown(value)}, allowed: numbers > 0"
+
+
+def _sieveAmiss(values):
+    if values["grains"]["distribution"] == "sieve" and not values["grains"]["sieve"]:
+        yield "grains.sieve = '', allowed: the path of a CSV file, with grains.distribution = 'sieve'"
 
 
 def sedimentOf(grains, folder="."):
@@ -140,8 +173,6 @@ def sedimentOf(grains, folder="."):
     if grains["distribution"] == "lognormal":
         shared["grading"] = grading.Lognormal(grains["median"], grains["spread"])
     elif grains["distribution"] == "sieve":
-        if not grains["sieve"]:
-            raise CaseError("grains.sieve = '', allowed: the path of a CSV file, with grains.distribution = 'sieve'")
         shared["grading"] = grading.readSieve(Path(folder) / grains["sieve"])
     else:
         shared.update(rMin=grains["rMin"], rMax=grains["rMax"])

@@ -14,6 +14,7 @@ from capfrac import sediment, snapshot
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
 from capfrac.runfolder import exactText
+from capfrac.values import isPositive, shown
 
 #: Share of the grains with a contact at which the second stage, settling and rearrangement, begins [-].
 SETTLING_SHARE = 0.5
@@ -42,8 +43,8 @@ def _place(sample, gravity, safety):
     from yade import O
     from yade.wrapper import GlobalStiffnessTimeStepper
 
-    if gravity is not None and not (math.isfinite(gravity) and gravity > 0):
-        raise CaseError(f"gravity = {gravity} m/s^2, allowed: > 0")
+    if gravity is not None and not isPositive(gravity):
+        raise CaseError(f"gravity = {shown(gravity)} m/s^2, allowed: > 0")
     sediment.placeSample(sample)
     sediment.startSettling(sample, gravity)
     # A grain that falls free has no period. Its first contact gives it that of the smallest grain on one contact,

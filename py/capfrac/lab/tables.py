@@ -19,6 +19,7 @@ from capfrac.errors import CaseError
 from capfrac.lab import biaxial
 from capfrac.lab.box import INERTIAL_NUMBER
 from capfrac.lab.run import LabRun
+from capfrac.values import isPositive, shown
 
 #: Smallest radii from 1.2 um to 1 cm, powers of two apart [m].
 RADII = tuple(1e-2 / 2**n for n in (13, 10, 7, 3, 0))
@@ -32,8 +33,8 @@ def sizes(sample, radii=RADII, stresses=(20e3, 50e3, 100e3), strain=0.08, bondSt
     ``table``: ``rMin [m]`` and :data:`PROPERTIES`; ``spread``: of each property (largest - smallest) / mean [-].
     """
     run = run or LabRun("sizes", {})
-    if not radii or any(not (math.isfinite(r) and r > 0) for r in radii):
-        raise CaseError(f"radii = {list(radii)}, allowed: numbers > 0")
+    if not radii or not all(map(isPositive, radii)):
+        raise CaseError(f"radii = {shown(list(radii))}, allowed: numbers > 0")
     found = [biaxial.biaxial(sediment.changed(sample, rMin=r, rMax=r * sample.rMax / sample.rMin), stresses, strain, bondStrength, inertialNumber,
                              settledPacking(sample, run, r), run) for r in radii]
     table = {"rMin [m]": list(map(float, radii)), **{name: [one[name] for one in found] for name in PROPERTIES}}
@@ -66,8 +67,8 @@ def sensitivity(sample, factor=2.0, stresses=(20e3, 50e3, 100e3), strain=0.08, b
     goes like parameter^n between the two ends (NaN where it changes its sign).
     """
     run = run or LabRun("sensitivity", {})
-    if not (math.isfinite(factor) and factor > 1):
-        raise CaseError(f"factor = {factor}, allowed: > 1")
+    if not (isPositive(factor) and factor > 1):
+        raise CaseError(f"factor = {shown(factor)}, allowed: > 1")
     rows = {"parameter": [], "value": [], **{name: [] for name in PROPERTIES}}
     exponents = {}
     for parameter, value, make in _variants(sample, bondStrength):

@@ -5,8 +5,10 @@ import time
 from concurrent import futures
 
 from capfrac import environment
+from capfrac.errors import CaseError
 from capfrac.sweep import execution
 from capfrac.sweep.folder import SweepFolder
+from capfrac.values import asInt, shown
 
 
 def runSweep(sweep, folder, processes=1, points=None, retry=False, report=lambda text: None, executor=None, threads=1):
@@ -18,9 +20,13 @@ def runSweep(sweep, folder, processes=1, points=None, retry=False, report=lambda
     :func:`capfrac.sweep.execution.runAll`). Interrupted (Ctrl-C), the folder is left usable and the interruption goes on
     to the caller; the same call then goes on. The result: counts of ``finished``, ``failed`` and all ``points`` (the rest
     are points whose future was cancelled), ``failures`` (pairs of a point's name and what it said), ``table`` (its path),
-    ``seconds`` of this call. Raises :class:`CapfracError` where the executor breaks.
+    ``seconds`` of this call. Raises :class:`CapfracError` where the executor breaks,
+    :class:`CaseError` for numbers of points, processes or threads that are none.
     """
     environment.checkThreads(threads)
+    for name, value in (("processes", processes), ("points", points)):
+        if not (name == "points" and value is None) and not (asInt(value) or 0) >= 1:
+            raise CaseError(f"{name} = {shown(value)}, allowed: a whole number >= 1")
     if executor is not None:
         execution.checkExecutor(executor)
     place = SweepFolder(folder, sweep)

@@ -20,6 +20,7 @@ from capfrac.lab.water.handmade import alone, drainedAt
 from capfrac.lab.water.poroelasticity import Material, mandel, mandelPeak, mandelPressure, terzaghi, terzaghiDegree, terzaghiPressure
 from capfrac.lab.run import LabRun
 from capfrac.packing import hexagonal
+from capfrac.values import isPositive, shown
 
 #: Time factor c t/H^2 at which the tests end.
 LAST_TIME = {"terzaghi": 2.0, "mandel": 0.4}
@@ -54,8 +55,8 @@ def consolidation(sample, kind="terzaghi", stress=100e3, load=5e3, bulkModulus=2
     if kind not in LAST_TIME:
         raise CaseError(f"kind = {kind!r}, allowed: {', '.join(LAST_TIME)}")
     for name, value in (("load", load), ("bulkModulus", bulkModulus)):
-        if not (value > 0 and math.isfinite(value)):
-            raise CaseError(f"{name} = {value}, allowed: > 0")
+        if not isPositive(value):
+            raise CaseError(f"{name} = {shown(value)}, allowed: > 0")
     if arrangement not in ("settled", "hexagonal"):
         raise CaseError(f"arrangement = {arrangement!r}, allowed: 'settled', 'hexagonal'")
     if steps < 1000:

@@ -10,6 +10,7 @@ import numpy as np
 
 from capfrac import sediment
 from capfrac.errors import CaseError
+from capfrac.values import asFloat, asInt, isPositive, shown
 
 
 def column(place, radii):
@@ -45,20 +46,20 @@ def triangularLattice(columns, rows, radius, gap=0.0):
 def requirePositive(**values):
     """Raise :class:`CaseError` that names the first of the values that is not a finite number > 0."""
     for name, value in values.items():
-        if not (isinstance(value, (int, float)) and math.isfinite(value) and value > 0):
-            raise CaseError(f"{name} = {value!r}, allowed: a finite number > 0")
+        if not isPositive(value):
+            raise CaseError(f"{name} = {shown(value)}, allowed: a finite number > 0")
 
 
 def _requireCounts(least, **counts):
     for name, value in counts.items():
-        if not (isinstance(value, int) and value >= least):
-            raise CaseError(f"{name} = {value!r}, allowed: a whole number >= {least}")
+        if (asInt(value) or 0) < least:
+            raise CaseError(f"{name} = {shown(value)}, allowed: a whole number >= {least}")
 
 
 def _spacing(radius, gap):
     requirePositive(radius=radius)
-    if not (math.isfinite(gap) and gap > -2 * radius):
-        raise CaseError(f"gap = {gap} m, allowed: > -2 radius = {-2 * radius:g} m")
+    if asFloat(gap) is None or gap <= -2 * radius:
+        raise CaseError(f"gap = {shown(gap)} m, allowed: > -2 radius = {-2 * radius:g} m")
     return 2 * radius + gap
 
 

@@ -18,6 +18,7 @@ from capfrac.errors import CaseError
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
 from capfrac.runfolder import exactText
+from capfrac.values import isPositive, shown
 
 #: Rows of a run.
 ROWS = 200
@@ -177,8 +178,8 @@ def _rowOfStirring(data):
 def stability(sample, bulkModuli=(1e7, 2.2e9), steps=100_000, stress=100e3, strain=0.25, run=None):
     """Shake a sample with each fluid and an incompressible one, with each scheme, and stir one; a dict of ``shake`` and ``stir``, results by name."""
     run = run or LabRun("stability", {})
-    if any(not (value > 0 and math.isfinite(value)) for value in bulkModuli):
-        raise CaseError(f"bulkModuli = {list(bulkModuli)}, allowed: > 0")
+    if not all(map(isPositive, bulkModuli)):
+        raise CaseError(f"bulkModuli = {shown(list(bulkModuli))}, allowed: > 0")
     stiffest = max(bulkModuli)
     name = f"{exactText(stiffest, '.3g')} Pa"
     shaken = [("dry", None, "undrainedStable")]

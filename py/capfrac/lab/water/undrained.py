@@ -22,6 +22,7 @@ from capfrac.errors import CaseError
 from capfrac.lab.box import Box
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
+from capfrac.values import isPositive, shown
 
 #: Rows of a compaction.
 ROWS = 20
@@ -40,8 +41,8 @@ def undrained(sample, stress=100e3, strain=0.01, bulkModulus=1e7, viscosity=1e-3
     """
     run = run or LabRun("undrained", {})
     for name, value in (("strain", strain), ("bulkModulus", bulkModulus), ("viscosity", viscosity), ("grainBulkModulus", grainBulkModulus or 1.0)):
-        if not (value > 0 and (math.isfinite(value) or name == "bulkModulus")):
-            raise CaseError(f"{name} = {value}, allowed: > 0")
+        if not isPositive(value) and not (name == "bulkModulus" and value == math.inf):
+            raise CaseError(f"{name} = {shown(value)}, allowed: > 0")
     fluids = {"dry": None, "sealed": {"bulkModulus": bulkModulus, "viscosity": viscosity}}
     if grainBulkModulus is not None:
         fluids["compressible"] = {**fluids["sealed"], "grainBulkModulus": grainBulkModulus}
