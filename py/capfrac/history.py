@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from capfrac.figures import COLOURS, newFigure, prefix, putLegend, putTitle, saveFigure, saySo, titleOf
+from capfrac.fracture.passage import gasOfTheInlet
 
 
 def levelsToTheEnd(gas, shot):
@@ -27,6 +28,17 @@ def levelsToTheEnd(gas, shot):
            "unbalanced": resultant / contact if contact > 0 else math.inf if resultant > 0 else 0.0, "atRest": False, "iteration": shot.iteration,
            "gasVolume": gas.volumes()["gas"], "finished": False}
     return {name: values + [row[name]] for name, values in levels.items()}
+
+
+def courseToTheEnd(gas, shot):
+    """The history of a ``GasInvasionEngine``, a dict of lists as of ``gas.history()``, up to the state of the snapshot ``shot``, taken just now."""
+    course = gas.history()
+    if course["iteration"] and course["iteration"][-1] >= shot.iteration:
+        return course
+    connected = float(np.array(gas.cells()["gas"])[gasOfTheInlet(shot)].sum())
+    row = {"time": shot.time, "iteration": shot.iteration, "gasPressure": shot.gasPressure, "connectedVolume": connected, "mass": gas.gasLedger()["injected"],
+           "gasSaturation": shot.gasSaturation, "brokenBonds": len(shot.brokenBonds), "level": shot.level}
+    return {name: values + [row[name]] for name, values in course.items()}
 
 
 def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, waterPressure=0.0, title=None, end=None):

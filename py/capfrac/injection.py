@@ -263,18 +263,18 @@ class Run:
                              f"{', '.join(found)}; begin the ramp lower to find them")
         return found
 
-    def drawCourse(self, levels, last, bounds):
-        """Draw curve.png and history.png; ``last``: the snapshot at the end, ``bounds``: see :meth:`upperBounds`."""
+    def drawCourse(self, levels, course, bounds):
+        """Draw curve.png and history.png of levels and course to the end of the run; ``bounds``: see :meth:`upperBounds`."""
         from yade import O
 
-        gas, sample, course = self.gas, self.folder.summary["sample"], self.gas.history()
+        gas, sample = self.gas, self.folder.summary["sample"]
         same = {"events": gas.events(), "waterPressure": gas.waterPressure, "title": self.case["case"]["title"],
                 "startTime": sample["startTime [s]"], "breakthroughIter": gas.breakthroughIter}
         levels = {**levels, "time": [O.time - (O.iter - iteration) * O.dt for iteration in levels["iteration"]]}
         curve.drawCapillaryCurve(levels, self.folder.path / "curve.png", bondCount=sample["bondsHolding"],
                                  breakthroughPressure=gas.breakthroughPressure, over="pressure" if self.ramped else "time",
                                  history=course, breakthroughAtStart="breakthroughPressure" in bounds, **same)
-        history.drawHistory(course, self.folder.path / "history.png", end=last, **same)
+        history.drawHistory(course, self.folder.path / "history.png", **same)
 
     def finish(self, reason):
         """Write what a finished run has; the checkpoint goes."""
@@ -291,13 +291,12 @@ class Run:
                                    **saturation})
         pictures = self.case["output"]["pictures"] != "none"
         if pictures:
-            self.drawCourse(levels, last, bounds)
+            self.drawCourse(levels, course, bounds)
         results = {
             "saturation": saturation, "upperBounds": bounds, "displacementWithRattlersAtEnd [r]": float(moved.max()),
             "largestDisplacementAtEnd [r]": modes["modeAtEnd"]["largestDisplacement"], "remeshes": gas.nRemeshes,
             "forceNetwork": mode.forceNetworkChange(self.start, last),
             "ledger [m^3]": dict(gas.volumes()), "iterations": last.iteration}
-        course = gas.history()
         highest = max([*course["gasPressure"], *gas.events()["gasPressure"], last.gasPressure])
         results["gas"] = {**{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
                           "highestCapillaryPressure [Pa]": highest - gas.waterPressure}
