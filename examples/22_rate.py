@@ -59,7 +59,8 @@ def inject(volume, start, rise, folder, pores):
     course, ledger = gas.history(), gas.gasLedger()
     history.drawHistory(course, os.path.join(folder, f"history-{volume}.png"), events=gas.events(), breakthroughIter=gas.breakthroughIter, startTime=begun,
                         title=f"dead volume: {volume} times the pores")
-    found = {"highest": max(course["gasPressure"]), "breakthrough": gas.breakthroughPressure, "rate": gas.gasRate, "supplied": ledger["supplied"],
+    # Between two rows of the history the pressure may have been higher when gas entered a pore.
+    found = {"highest": max([*course["gasPressure"], *gas.events()["gasPressure"]]), "breakthrough": gas.breakthroughPressure, "rate": gas.gasRate, "supplied": ledger["supplied"],
              "ledger": ledger["error"], "lowestAfter": min(course["gasPressure"][course["gasPressure"].index(max(course["gasPressure"])):])}
     print(f"dead volume {volume} times the pores, {gas.gasRate * 1e6:.3g} mg/s: highest pressure {found['highest'] / 1e3:.1f} kPa, "
           f"at the top at {found['breakthrough'] / 1e3:.1f} kPa, down to {found['lowestAfter'] / 1e3:.1f} kPa; error of the mass {found['ledger']:.0e}")

@@ -68,7 +68,7 @@ RUNS = {
     "water": (water, {}, lambda e: e.nFactorizations > 0),
     "waterImplicit": (lambda: water(timeIntegration="implicit", fluidDensity=1000, gravity=(0, -9.81), grainBulkModulus=1e7), {},
                       lambda e: e.nFactorizations > 0),
-    "waterExplicit": (lambda: water(timeIntegration="explicit", bulkModulus=20, wallFluxes=[1e-9, 0, 0, 0]), {}, lambda e: e.wallInflow[0] > 0),
+    "waterExplicit": (lambda: water(timeIntegration="explicit", bulkModulus=10, wallFluxes=[1e-9, 0, 0, 0]), {}, lambda e: e.wallInflow[0] > 0),
     "incompressible": (lambda: water(bulkModulus=math.inf, pointFluxes=[(5e-3, 5e-3, 1e-9)]), at(50, wallPressures=[0, 0, 0, 0]),
                        lambda e: e.nFactorizations > 0),
     "network": (lambda: PoreNetworkEngine(label="it", waterPressure=1e3), {}, lambda e: e.nRemeshes > 1),
