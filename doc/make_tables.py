@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-STUDIES = ("figure15", "figure16", "inlet", "stiffness")
+STUDIES = ("figure15", "figure16", "figure16_small", "inlet", "stiffness")
 
 
 def rows(study):
@@ -62,6 +62,7 @@ def _count(modes):
 TABLES = {
     "figure15": lambda: perSeed("figure15", "Pa"),
     "figure16": lambda: perSeed("figure16", "kPa"),
+    "figure16_small": lambda: perSeed("figure16_small", "kPa"),
     "inlet": lambda: perParameter("inlet", "inletPores", "inlet [pores]", ".0f"),
     "stiffness": lambda: perParameter("stiffness", "normalStiffness [N/m]", "k_n [N/m]", ".0e"),
 }

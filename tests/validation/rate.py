@@ -1,4 +1,4 @@
-"""Runs that test_rate.py and the figure of the manual share: the sample of figure16 under a ramp, and under rates.
+"""Runs that test_rate.py and the figure of the manual share: the sample of figure16_small under a ramp, and under rates.
 
 A run that is there already, of the shipped case as it is, is not made again. By itself this file makes all runs:
 ``capfrac python tests/validation/rate.py``.
@@ -18,7 +18,7 @@ from runs import FOLDER
 
 PLACE = FOLDER / "rate"
 #: Where the injections begin [Pa]: below the first entry.
-START = {"figure16": 125e3, "figure15": 140.0}
+START = {"figure16_small": 125e3, "figure15": 140.0}
 #: Volumes upstream of the inlet, over that of the pores [-], and the rise of the pressure within a period of a grain [Pa].
 SMALL, LARGE, RISE = 3, 300, 60.0
 #: Large for a coarse sample: P_c is 150 Pa of 101 kPa.
@@ -54,7 +54,7 @@ def keptAs(name, case, suffix):
     return PLACE / f"{name}-seed{case['grains']['seed']}-{caseKey(case, {})}.{suffix}"
 
 
-def one(name, seed=1, case="figure16", law="incompressible", volume=None, rise=RISE, refine=1, after=3000):
+def one(name, seed=1, case="figure16_small", law="incompressible", volume=None, rise=RISE, refine=1, after=3000):
     """One injection until some steps after the breakthrough: numbers, history and events as a dict, kept in a file.
 
     ``volume``: None for the ramp, else the dead volume of a supply whose rate lets the pressure rise by ``rise``. ``refine``

@@ -52,12 +52,12 @@ def fractureRow(summary):
 
 
 def inletRuns():
-    return {f"inlet{pores}-seed{seed}": ("figure16", {**TO_BREAKTHROUGH, "grains.seed": seed, "inlet.pores": pores})
+    return {f"inlet{pores}-seed{seed}": ("figure16_small", {**TO_BREAKTHROUGH, "grains.seed": seed, "inlet.pores": pores})
             for pores in INLETS for seed in SEEDS}
 
 
 def stiffnessRuns():
-    return {f"kn{stiffness:.0e}-seed{seed}": ("figure16", {**TO_BREAKTHROUGH, "grains.seed": seed, "grains.normalStiffness": stiffness})
+    return {f"kn{stiffness:.0e}-seed{seed}": ("figure16_small", {**TO_BREAKTHROUGH, "grains.seed": seed, "grains.normalStiffness": stiffness})
             for stiffness in STIFFNESSES for seed in STIFFNESS_SEEDS[stiffness]}
 
 
@@ -112,7 +112,8 @@ def writeTable(path, summaries, row=row):
 
 
 if __name__ == "__main__":
-    studies = {"figure14": fractureRuns(), "figure15": figureRuns("figure15"), "figure16": figureRuns("figure16"), "inlet": inletRuns(), "stiffness": stiffnessRuns()}
+    studies = {"figure14": fractureRuns(), "figure15": figureRuns("figure15"), "figure16": figureRuns("figure16"),
+               "figure16_small": figureRuns("figure16_small"), "inlet": inletRuns(), "stiffness": stiffnessRuns()}
     for study in sys.argv[1:] or studies:
         for entry in writeTable(FOLDER / f"{study}.csv", execute(studies[study]), fractureRow if study == "figure14" else row):
             print(entry)

@@ -25,7 +25,7 @@ def coarse():
 
 @pytest.fixture(scope="module")
 def fine():
-    summaries = execute(figureRuns("figure16"))
+    summaries = execute(figureRuns("figure16_small"))
     writeTable(FOLDER / "figure16.csv", summaries)
     return [row(summary) for summary in summaries.values()]
 

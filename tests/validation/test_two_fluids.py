@@ -11,7 +11,7 @@ pytestmark = pytest.mark.validation
 
 
 SEEDS = (1, 2, 3)
-#: figure16 in drained water with the pores of figure16_solved.
+#: figure16_small in drained water with the pores of figure16_solved.
 DRAINED = ['network.poreMode="triangle"', "network.closedPore=0.03", 'ramp.endAt="breakthrough"']
 
 
@@ -37,7 +37,7 @@ def test_figure15InTheSlowLimit(seed, drained):
 def test_figure16InTheSlowLimit(seed):
     """Fine grains: a fracture that reaches the top at the pressure of drained water. The water may stand off rest by one per cent of that when a pore is entered; which way the gas
     takes is a matter of accidents once grains slide, for which four per cent more are allowed: half of what drained samples differ by (136 to 148 kPa)."""
-    found, drained = run("figure16_solved", seed), run("figure16_triangle", seed, "figure16", DRAINED)
+    found, drained = run("figure16_solved", seed), run("figure16_triangle", seed, "figure16_small", DRAINED)
     assert found["mode"]["mode"] == drained["mode"]["mode"] == "fracture"
     assert found["mode"]["breakthroughPressure"] == pytest.approx(drained["mode"]["breakthroughPressure"], rel=0.05)
     checkBooks(found)

@@ -4,7 +4,7 @@ A TOML file with a base case and lists of values::
 
     [sweep]
     title = "Grain size and cohesion"
-    case = "figure16"                  # a case file or a shipped case: what no other line says is taken from there
+    case = "figure16_small"               # a case file or a shipped case: what no other line says is taken from there
     [set]                              # keys of a case that all points share
     ramp.endAt = "breakthrough"
     [units]                            # of names that are no keys of a case; those with a unit are columns of the table
