@@ -57,9 +57,7 @@ void GasInvasionEngine::checkInlet() const
 		checkInletPoints();
 		return;
 	}
-	const int  wall = wallFromName("inletWall", inletWall);
-	const bool flat = wall == capfrac::wallBottom || wall == capfrac::wallTop;
-	const Real low = flat ? reader.box.left : reader.box.bottom, high = flat ? reader.box.right : reader.box.top;
+	const auto [low, high] = inletWallEnds();
 	std::ostringstream allowed;
 	allowed << low << " … " << high << " m, the extent of the " << inletWall << " wall";
 	if (!(inletTo > inletFrom)) capfrac::refuseAttribute("no inlet: inletTo [m]", inletTo, "> inletFrom (or give inletPoints)");
@@ -67,6 +65,22 @@ void GasInvasionEngine::checkInlet() const
 	const Real slack = 1e-9 * (high - low);
 	if (!(inletFrom >= low - slack)) capfrac::refuseAttribute("inletFrom [m]", inletFrom, allowed.str());
 	if (!(inletTo <= high + slack)) capfrac::refuseAttribute("the inlet is wider than its wall: inletTo [m]", inletTo, allowed.str());
+}
+
+/// Coordinates of the ends of the wall with the inlet [m].
+std::pair<Real, Real> GasInvasionEngine::inletWallEnds() const
+{
+	const int wall = wallFromName("inletWall", inletWall);
+	if (wall == capfrac::wallBottom || wall == capfrac::wallTop) return { reader.box.left, reader.box.right };
+	return { reader.box.bottom, reader.box.top };
+}
+
+/// Puts the ends of the wall in the place of infinite ones of the inlet.
+void GasInvasionEngine::reachWallEnds()
+{
+	const auto [low, high] = inletWallEnds();
+	if (inletFrom == -std::numeric_limits<Real>::infinity()) inletFrom = low;
+	if (inletTo == std::numeric_limits<Real>::infinity()) inletTo = high;
 }
 
 /// A point in a grain stands for the pore beside it, but not all of them may: then the inlet is not where it was meant to be.
@@ -99,9 +113,12 @@ std::vector<int> GasInvasionEngine::inletDomains() const
 void GasInvasionEngine::startFluids()
 {
 	if (gasPressure < waterPressure) capfrac::refuseAttribute("gasPressure [Pa]", gasPressure, ">= waterPressure");
+	checkWeight();
 	if (!drained()) SinglePhaseFlowEngine::startFluids();
+	const auto given = std::pair(inletFrom, inletTo);
 	try {
 		drained() ? checkSupplyTogether() : checkDisplacementTogether();
+		reachWallEnds();
 		checkInlet();
 		const auto inlet = inletDomains();
 		if (inlet.empty())
@@ -119,7 +136,7 @@ void GasInvasionEngine::startFluids()
 				contents.source[c] = 1;
 		}
 	} catch (...) {
-		mesh = {}; // the network is not there until it has an inlet
+		std::tie(inletFrom, inletTo) = given;
 		throw;
 	}
 	if (!drained()) startDisplacement();

@@ -89,6 +89,9 @@ private:
 	bool                     mayInvade() const;
 	std::vector<int>         inletDomains() const;
 	void                     checkInlet() const;
+	std::pair<Real, Real>    inletWallEnds() const;
+	void                     reachWallEnds();
+	bool                     weightless() const override { return fluidDensity == 0 && gasDensity == 0; }
 	void                     checkInletPoints() const;
 	void                     noteBreakthrough();
 	void                     checkInvariantsNow(const capfrac::DrainageNetwork& network, const capfrac::Drainage& drainage) const;
@@ -208,8 +211,8 @@ pores with $p_w$. The pressure rises by :yref:`pressureIncrement<GasInvasionEngi
 		((int,minLevelSteps,100,Attr::triggerPostLoad,"Steps that a pressure level lasts at least [-], >= 1."))
 		((int,maxLevelSteps,20000,Attr::triggerPostLoad,"Steps after which the pressure rises though the grains still move [-]; such levels are marked in :yref:`levels<GasInvasionEngine.levels>`."))
 		((std::string,inletWall,"bottom",Attr::triggerPostLoad,"Wall with the gas inlet: ``'left'``, ``'right'``, ``'bottom'``, ``'top'`` [-]."))
-		((Real,inletFrom,0,,"Begin of the inlet on its wall, a coordinate [m]. Pores whose stretch of wall has its middle in [inletFrom, inletTo] are the inlet."))
-		((Real,inletTo,0,,"End of the inlet on its wall, a coordinate [m]. The width of the inlet controls at which pressure a cohesive sediment opens; it is on record in :yref:`inletPores<GasInvasionEngine.inletPores>`."))
+		((Real,inletFrom,0,,"Begin of the inlet on its wall, a coordinate [m]; minus infinity: that of the wall. Pores whose stretch of wall has its middle in [inletFrom, inletTo] are the inlet."))
+		((Real,inletTo,0,,"End of the inlet on its wall, a coordinate [m]; infinity: that of the wall. The width of the inlet controls at which pressure a cohesive sediment opens; it is on record in :yref:`inletPores<GasInvasionEngine.inletPores>`."))
 		((std::vector<Vector2r>,inletPoints,,,"Instead of a stretch of wall: points [m], at least one in the void; the pores that hold them are the inlet."))
 		((std::string,outletWall,"top",Attr::triggerPostLoad,"Wall through which the water leaves, or ``'any'`` for all four; gas that reaches it has broken through [-]."))
 		((bool,trapping,false,Attr::triggerPostLoad,"Whether water that is cut off from the outlet stays (true) or drains by films (false) [-]."))

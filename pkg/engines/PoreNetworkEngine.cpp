@@ -71,7 +71,13 @@ void PoreNetworkEngine::build()
 	nCells = static_cast<int>(mesh.cells.size());
 	updateGaps();
 	findDomains();
-	startFluids();
+	try {
+		startFluids();
+	} catch (...) {
+		mesh   = {}; // the network is not there until its fluids are
+		nCells = nDomains = 0;
+		throw;
+	}
 }
 
 capfrac::Triangulation PoreNetworkEngine::readScene(SceneReader& fresh) const

@@ -71,8 +71,18 @@ void SinglePhaseFlowEngine::postLoad(SinglePhaseFlowEngine&)
 	solver.recall({ std::exchange(savedSolverStart, {}), std::exchange(savedSolverRow, {}), std::exchange(savedSolverValue, {}) });
 }
 
+void SinglePhaseFlowEngine::checkWeight() const
+{
+	if (!weightless() || gravity.squaredNorm() == 0) return;
+	std::ostringstream value;
+	value << "(" << gravity[0] << ", " << gravity[1] << ")";
+	capfrac::refuseAttribute(
+	        "gravity [m/s²]", value.str(), "(0, 0) while no fluid has a density (fluidDensity), as it acts on fluids alone");
+}
+
 void SinglePhaseFlowEngine::startFluids()
 {
+	checkWeight();
 	for (auto& water : contents.water)
 		water = capfrac::massAt(waterPressure, water, bulkModulus);
 	initialWater = thickness * contents.totalWater();

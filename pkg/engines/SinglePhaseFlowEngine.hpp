@@ -39,6 +39,9 @@ protected:
 
 	/// Lets values of the cells follow a remeshing: a new cell has that of a neighbour that is not new, or `fallback`.
 	void carryOverCells(std::vector<Real>& values, const capfrac::Triangulation& before, Real fallback) const;
+	/// Refuses gravity that would be ignored, as no fluid has a density.
+	void         checkWeight() const;
+	virtual bool weightless() const { return fluidDensity == 0; }
 	/// Pressure held in the pores along a wall [Pa]; NaN: none.
 	virtual Real prescribedPressure(int wall) const { return wallPressures[wall]; }
 

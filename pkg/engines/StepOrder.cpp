@@ -22,10 +22,15 @@ namespace {
 	enum Kind { resetter, loop, forces, fluid, servo, integrator, other };
 
 	/// Engines of YADE that add forces to bodies, by name: not every YADE is built with all of them.
-	const std::set<std::string> forceEngines { "ForceEngine", "InterpolatingDirectedForceEngine", "RadialForceEngine", "DragEngine", "LinearDragEngine",
-		                                   "HarmonicForceEngine", "HydroForceEngine" };
+	const std::set<std::string> forceEngines { "ForceEngine",      "InterpolatingDirectedForceEngine",
+		                                   "RadialForceEngine", "DragEngine",
+		                                   "LinearDragEngine",  "HarmonicForceEngine",
+		                                   "HydroForceEngine" };
 
-	template <class... Classes> bool isOne(const Engine& engine) { return ((dynamic_cast<const Classes*>(&engine) != nullptr) || ...); }
+	template <class... Classes> bool isOne(const Engine& engine)
+	{
+		return ((dynamic_cast<const Classes*>(&engine) != nullptr) || ...);
+	}
 
 	Kind kindOf(const Engine& engine)
 	{
@@ -83,20 +88,27 @@ namespace {
 
 	void checkNumber(const Engine& asking, const std::vector<const Engine*>& live, Kind kind)
 	{
-		const auto number = std::count_if(live.begin(), live.end(), [kind](const Engine* engine) { return kindOf(*engine) == kind; });
-		if (number < 2) return;
 		std::string names;
+		int         number = 0;
 		for (const auto* engine : live)
-			if (kindOf(*engine) == kind) names += (names.empty() ? "" : ", ") + engine->getClassName();
-		refuse(asking, "meets " + std::to_string(number) + " engines where one is allowed (" + names + "); take one out of O.engines or set its dead = True");
+			if (kindOf(*engine) == kind) names += (number++ ? ", " : "") + engine->getClassName();
+		if (number < 2) return;
+		refuse(asking,
+		       "meets " + std::to_string(number) + " engines where one is allowed (" + names
+		               + "); take one out of O.engines or set its dead = True");
+	}
+
+	bool holds(const std::vector<const Engine*>& engines, Kind kind)
+	{
+		return std::any_of(engines.begin(), engines.end(), [kind](const Engine* engine) { return kindOf(*engine) == kind; });
 	}
 
 	void checkIntegrator(const Scene& scene, const Engine& asking, const std::vector<const Engine*>& live)
 	{
-		const bool contacts = std::any_of(live.begin(), live.end(), [](const Engine* engine) { return kindOf(*engine) == loop; });
+		const auto isIntegrator = [](const auto& engine) { return isOne<NewtonIntegrator>(*engine); };
 		// A dead integrator is a choice; none at all, with contacts that press, is an oversight.
-		const bool none = std::none_of(scene.engines.begin(), scene.engines.end(), [](const auto& engine) { return isOne<NewtonIntegrator>(*engine); });
-		if (contacts && none) refuse(asking, "meets contacts, but no NewtonIntegrator: nothing would ever move");
+		const bool none = std::none_of(scene.engines.begin(), scene.engines.end(), isIntegrator);
+		if (none && holds(live, loop)) refuse(asking, "meets contacts, but no NewtonIntegrator: nothing would ever move");
 	}
 
 } // namespace
@@ -123,20 +135,21 @@ void checkStepOrder(const Scene& scene, const Engine& asking)
 	if (place == live.end()) return;
 	const auto listed = [&asking](const auto& engine) { return engine.get() == &asking; };
 	if (std::none_of(scene.engines.begin(), scene.engines.end(), listed))
-		refuse(asking, "stands within a ParallelEngine, beside engines whose forces it needs; it has to stand in O.engines itself");
+		refuse(asking,
+		       "stands within a ParallelEngine, beside engines whose forces it needs; it has to stand in O.engines itself");
 	const Kind kind = kindOf(asking);
 	if (kind != forces) checkNumber(asking, live, kind);
 	checkIntegrator(scene, asking, live);
 	if (!integratorOf(scene)) return; // nothing moves, whatever the order
 	for (Kind single : { loop, integrator })
 		checkNumber(asking, live, single);
-	if (std::none_of(live.begin(), live.end(), [](const Engine* engine) { return kindOf(*engine) == resetter; }))
-		refuse(asking, "meets no ForceResetter: the forces of all steps would add up");
+	if (!holds(live, resetter)) refuse(asking, "meets no ForceResetter: the forces of all steps would add up");
 	for (auto engine = live.begin(); engine != live.end(); ++engine) {
 		const Kind its = kindOf(**engine);
 		if (engine == place || !matters(kind, its)) continue;
-		if (its < kind && engine > place) refuse(asking, "stands before " + (*engine)->getClassName() + ": " + harmBefore(kind, its));
-		if (its > kind && engine < place) refuse(asking, "stands after " + (*engine)->getClassName() + ": " + harmAfter(its));
+		const std::string name = (*engine)->getClassName();
+		if (its < kind && engine > place) refuse(asking, "stands before " + name + ": " + harmBefore(kind, its));
+		if (its > kind && engine < place) refuse(asking, "stands after " + name + ": " + harmAfter(its));
 	}
 }
 
@@ -157,7 +170,8 @@ DrivingForces::DrivingForces(Scene& ofScene, const Engine& asking)
 bool DrivingForces::move(const Body& body) const
 {
 	constexpr unsigned plane = State::DOF_X | State::DOF_Y;
-	return newton && body.isDynamic() && (newton->mask <= 0 || body.maskCompatible(newton->mask)) && (body.state->blockedDOFs & plane) != plane;
+	if (!newton || !body.isDynamic() || (body.state->blockedDOFs & plane) == plane) return false;
+	return newton->mask <= 0 || body.maskCompatible(newton->mask);
 }
 
 Vector3r DrivingForces::on(const Body& body) const

@@ -49,7 +49,7 @@ GasLaw gasLawFromName(const std::string& name)
 	if (name == "ideal") return GasLaw::ideal;
 	if (name == "tabulated") return GasLaw::tabulated;
 	if (name == "incompressible") return GasLaw::incompressible;
-	throw std::invalid_argument("equation of state = '" + name + "', allowed: 'ideal', 'tabulated', 'incompressible'");
+	throw std::invalid_argument("gasLaw = '" + name + "', allowed: 'ideal', 'tabulated', 'incompressible'");
 }
 
 void checkEquationOfState(const EquationOfState& gas)

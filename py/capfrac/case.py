@@ -81,8 +81,10 @@ KEYS = (
         usedWith="no inlet.points and no inlet.middle"),
     Key("inlet", "outlet", str, "-", "top", "Wall where the water leaves, or any for all four; gas there has broken through.", choices=("left", "right", "bottom", "top", "any")),
     Key("inlet", "pores", int, "-", 0, "Number of neighbouring pores along the wall that are the inlet, around its middle.", low=0),
+    Key("inlet", "whole", bool, "-", False, "Instead of pores: whether the inlet is the whole wall."),
     Key("inlet", "from", float, "m", None, "Instead of pores: begin of the inlet, from the left (lower) end of its wall.", low=0),
-    Key("inlet", "to", float, "m", None, "Instead of pores: end of the inlet, from the left (lower) end of its wall.", low=0),
+    Key("inlet", "to", float, "m", None, "Instead of pores: end of the inlet, from the left (lower) end of its wall; up to "
+        "a tenth beyond the wall, which moves while the sample is prepared, is the wall's end.", low=0),
     Key("inlet", "points", list, "m", (), "Instead of a stretch of wall: points [x, y] from the lower left corner of the box; the pores that hold them."),
     Key("inlet", "middle", float, "m", None, "Instead of a stretch of wall: the pores within this distance of the middle of the box (that hold the middle or one of 24 points on three circles).", low=0),
     notNegative("ramp", "start", "Pa", None, "Capillary pressure p_g - p_w at which the ramp begins, a reservoir is "

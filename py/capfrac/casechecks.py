@@ -51,9 +51,10 @@ def _stresses(case):
 def _inlet(case):
     inlet = case["inlet"]
     stretch = inlet["from"] is not None or inlet["to"] is not None
-    ways = [bool(inlet["pores"]), stretch, bool(inlet["points"]), inlet["middle"] is not None]
+    ways = [bool(inlet["pores"]), inlet["whole"], stretch, bool(inlet["points"]), inlet["middle"] is not None]
     if sum(ways) != 1:
-        yield "no inlet or several; give one of inlet.pores, inlet.from with inlet.to, inlet.points, inlet.middle"
+        yield ("no inlet or several; give one of inlet.pores, inlet.whole, inlet.from with inlet.to, "
+               "inlet.points, inlet.middle")
     if stretch and (inlet["from"] is None or inlet["to"] is None or inlet["to"] <= inlet["from"]):
         yield f"inlet.from = {inlet['from']}, inlet.to = {inlet['to']}; allowed: both given, from < to"
 

@@ -4,13 +4,17 @@ import math
 
 import numpy as np
 
-from capfrac import sediment
+from capfrac import casewords, sediment
 from capfrac.casepacking import packingOf
+from capfrac.errors import CaseError
 from capfrac.gasengine import addMenisci, startInjection
 
 #: Pressure between the levels on record of a run at a rate, unless the case says otherwise, over gamma / r [-]: about
 #: a hundredth of the pressure at which gas percolates (4.65).
 LEVEL_SHARE = 0.05
+#: Share of a wall's length that an inlet may end beyond it [-]: more than a box shrinks while it is compressed to
+#: stresses that its contacts can bear, less than any error of unit.
+SHRINKAGE = 0.1
 
 
 def makeSample(case, say):
@@ -22,9 +26,7 @@ def makeSample(case, say):
         packing = values["x"], values["y"], values["r"]
         count, rMin, rMax = len(packing[2]), float(packing[2].min()), float(packing[2].max())
     sample = sediment.Sediment(
-        grainCount=count, rMin=rMin, rMax=rMax,
-        **{name: grains[name] for name in ("seed", "density", "normalStiffness", "shearStiffness", "friction",
-                                           "wallFriction", "aspect")})
+        grainCount=count, rMin=rMin, rMax=rMax, **casewords.values(case, casewords.SEDIMENT))
     sediment.makeSample(sample, case["stress"]["vertical"], case["stress"]["horizontal"], packing, progress=say)
     nBonds = sediment.bond(cohesion["chi"] * case["gas"]["interfacialTension"], cohesion["tensileStrength"], cohesion["shearStrength"])
     sediment.relax(progress=say)
@@ -49,26 +51,38 @@ def _increment(case):
     return LEVEL_SHARE * case["gas"]["interfacialTension"] / radius
 
 
+def _inletStretch(inlet, walls):
+    """Begin and end of the inlet on its wall, coordinates [m]; None where it is no stretch of it.
+
+    Raises :class:`CaseError` where the inlet ends far beyond the wall. The box shrinks while the sample is prepared, so
+    one that ends a little beyond ends with the wall.
+    """
+    if inlet["whole"]:
+        return -math.inf, math.inf
+    if inlet["from"] is None:
+        return None
+    ends = ("bottom", "top") if inlet["wall"] in ("left", "right") else ("left", "right")
+    low, high = (walls[end].state.pos[0 if end in ("left", "right") else 1] for end in ends)
+    length = high - low
+    if inlet["to"] > (1 + SHRINKAGE) * length or inlet["from"] >= length:
+        raise CaseError(f"inlet.from = {inlet['from']:g}, inlet.to = {inlet['to']:g} m, allowed: 0 … {length:.6g} m, "
+                        f"the length of the {inlet['wall']} wall, and a little more; the whole wall is "
+                        "inlet.whole = true")
+    return low + inlet["from"], math.inf if inlet["to"] >= length else low + inlet["to"]
+
+
 def startGas(case):
-    """The gas engine that the case asks for, and its menisci, in a scene with its sample; returns the engine."""
-    inlet, gas, water, ramp, supply, network = (case[section] for section in ("inlet", "gas", "water", "ramp", "supply", "network"))
+    """The gas engine that the case asks for, and its menisci, in a scene with its sample; returns the engine.
+
+    Raises :class:`CaseError` in the words of the case.
+    """
+    inlet, gas, ramp, supply = (case[section] for section in ("inlet", "gas", "ramp", "supply"))
     walls = sediment.wallBodies()
-    axis = 1 if inlet["wall"] in ("left", "right") else 0
-    low = walls["bottom" if axis else "left"].state.pos[axis]
-    stretch = None if inlet["from"] is None else (low + inlet["from"], low + inlet["to"])
     engine = startInjection(
-        ramp["start"], _increment(case), ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"], stretch,
-        _inletPoints(inlet, walls),
-        interfacialTension=gas["interfacialTension"], contactAngle=math.radians(gas["contactAngle"]), entryLaw=gas["entryLaw"],
-        gasLaw=gas["law"], gasMolarMass=gas["molarMass"], gasTemperature=gas["temperature"], gasDeviation=gas["deviation"],
-        gasTable=[tuple(map(float, pair)) for pair in gas["table"]], pressureDatum=gas["datum"],
-        gasControl=supply["control"], pressureProgram=[float(p) for p in supply["program"]], gasRate=supply["rate"],
-        reservoirVolume=supply["reservoirVolume"], historyInterval=supply["historyInterval"],
-        **{name: gas[name] for name in ("trapping", "imbibition", "snapOff", "filmConductance", "gasDensity")},
-        waterFlow=water["flow"], viscosity=water["viscosity"], bulkModulus=water["bulkModulus"], conductanceFactor=water["conductanceFactor"], gasViscosity=gas["viscosity"],
-        fluidDensity=gas["waterDensity"], gravity=tuple(gas["gravity"]), poreMode=network["poreMode"], mergeTolerance=network["mergeTolerance"], closedPore=network["closedPore"],
-        openingThreshold=network["openingThreshold"], checkInvariants=network["checkInvariants"],
-        unbalancedTolerance=ramp["unbalanced"], minLevelSteps=ramp["minLevelSteps"], invasionInterval=ramp["invasionInterval"], maxLevelSteps=ramp["maxLevelSteps"])
+        ramp["start"], _increment(case), ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"],
+        _inletStretch(inlet, walls), _inletPoints(inlet, walls), contactAngle=math.radians(gas["contactAngle"]),
+        gasTable=[tuple(map(float, pair)) for pair in gas["table"]], gravity=tuple(gas["gravity"]),
+        pressureProgram=[float(p) for p in supply["program"]], **casewords.values(case, casewords.GAS))
     if case["cohesion"]["menisci"] != "none":
         addMenisci(case["cohesion"]["menisci"], chi=case["cohesion"]["meniscusChi"])
     return engine

@@ -4,6 +4,10 @@
 class CapfracError(Exception):
     """Any problem that capfrac reports."""
 
+    def inWords(self, translate):
+        """The same error with each of its texts as ``translate(text)`` has it."""
+        return type(self)(*map(translate, map(str, self.args)))
+
 
 class CaseError(CapfracError, ValueError):
     """A case file or arguments with unknown or impossible entries. Names each key, its value and what is allowed.
@@ -14,6 +18,10 @@ class CaseError(CapfracError, ValueError):
     def __init__(self, *problems, source=""):
         super().__init__(*problems)
         self.problems, self.source = [str(problem) for problem in problems], source
+
+    def inWords(self, translate):
+        """The same error with each of its problems as ``translate(text)`` has it."""
+        return CaseError(*map(translate, self.problems), source=self.source)
 
     def __str__(self):
         start = f"{self.source}: " if self.source else ""

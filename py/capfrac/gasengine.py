@@ -1,5 +1,7 @@
 """Put the engines of the gas into a scene that has a sample. Scripts find them in :mod:`capfrac.injection`."""
 
+import math
+
 from capfrac import sediment
 from capfrac.errors import CaseError, SceneError
 from capfrac.keys import LARGEST_INT, didYouMean
@@ -12,8 +14,8 @@ def startInjection(start, increment, max=None, pores=0, wall="bottom", outlet="t
 
     ``start``, ``increment``, ``max``: the ramp of the capillary pressure [Pa]; ``max`` says nothing to a program, a
     rate or a reservoir and may then be left out. The inlet is ``pores`` neighbouring pores around the middle of
-    ``wall``, or the ``stretch`` (from, to) [m] of it, or the pores that hold ``points`` [m]. All other attributes of
-    the engine can be given by name. Raises :class:`CaseError` naming each argument that is impossible, and
+    ``wall``, or the ``stretch`` (from, to) [m] of it (infinite ends are those of the wall), or the pores that hold
+    ``points`` [m]. All other attributes of the engine can be given by name. Raises :class:`CaseError` naming each argument that is impossible, and
     :class:`SceneError` for a scene that cannot be followed (RuntimeError of the engine); the scene then is as before.
     """
     from yade.wrapper import GasInvasionEngine
@@ -51,8 +53,8 @@ def _checkedInlet(pores, stretch, points):
     found = asInt(pores)
     if found is None or not 0 <= found <= LARGEST_INT:
         raise CaseError(f"pores = {shown(pores)}, allowed: a whole number from 0 to {LARGEST_INT}")
-    pairs = [*points, *([] if stretch is None else [stretch])]
-    for pair in pairs:
+    ends = [] if stretch is None else [[0.0 if end in (-math.inf, math.inf) else end for end in stretch]]
+    for pair in [*points, *ends]:
         if len(pair) != 2 or None in map(asFloat, pair):
             raise CaseError(f"no inlet: {shown(tuple(pair))}, allowed: pairs of finite numbers [m]")
     return found, stretch and tuple(map(float, stretch)), [tuple(map(float, point)) for point in points]

@@ -20,6 +20,7 @@ import numpy as np
 from capfrac import casescene, curve, environment, export, figures, fracture, history, mode, namedfiles, sediment, snapshot
 from capfrac.case import readCase, resolveCase
 from capfrac.casepacking import checkPacking
+from capfrac.casewords import inCaseWords
 from capfrac.errors import CapfracError, RunFolderError, SceneError
 from capfrac.gasengine import addMenisci, startInjection  # noqa: F401 (part of this module for scripts)
 from capfrac.runfolder import RunFolder, exactText, holdingInterrupts
@@ -353,12 +354,13 @@ def inject(case, folder, restart=False, report=print, bar=lambda pressure, satur
         if run.begun:  # the last checkpoint stays
             runFolder.writeSummary(state="interrupted")
         raise
-    except CapfracError:
-        raise
+    except CapfracError as problem:
+        raise problem.inWords(inCaseWords) from problem
     except (RuntimeError, ValueError) as problem:  # from an engine in the loop
+        error = inCaseWords(str(problem))
         if run.begun:
-            runFolder.writeSummary(state="failed", error=str(problem))
-        raise SceneError(str(problem)) from problem
+            runFolder.writeSummary(state="failed", error=error)
+        raise SceneError(error) from problem
     finally:
         if fresh and not run.begun:
             runFolder.discard()

@@ -12,7 +12,7 @@ G = 9.81
 
 @pytest.fixture
 def heap(handScene):
-    """A function (rows) -> ids of grains in straight columns on the floor, one above the other, under a gas engine; no servo.
+    """A function (rows) -> ids of grains in straight columns on the floor, one above the other, under a gas engine.
 
     Columns do not touch each other or the side walls, so each floor contact bears the weight of its column.
     """
@@ -24,8 +24,9 @@ def heap(handScene):
         sediment.engine("newton").damping = damping
         for body in grains:
             O.bodies[body].state.blockedDOFs = "xzXYZ"  # columns would buckle
-        sediment.insertFluid(GasInvasionEngine(label="gas", gasPressure=1, pressureIncrement=1, maxPressure=1000, inletFrom=0, inletTo=(columns + 0.2) * step,
-                                               minLevelSteps=100, maxLevelSteps=10**6, **attributes))
+        sediment.insertFluid(GasInvasionEngine(
+            label="gas", gasPressure=1, pressureIncrement=1, maxPressure=1000, inletFrom=0,
+            inletTo=(columns + 0.2) * step, minLevelSteps=100, maxLevelSteps=10**6, **attributes))
         return grains
 
     return make
@@ -37,7 +38,8 @@ def weight(kind, place="before"):
         sediment.engine("newton").gravity = (0, -G, 0)
         return
     engines = list(O.engines)
-    engines.insert(engines.index(sediment.engine("gas")) + (place == "after"), GravityEngine(gravity=(0, -G, 0), warnOnce=False))
+    engine = GravityEngine(gravity=(0, -G, 0), warnOnce=False)
+    engines.insert(engines.index(sediment.engine("gas")) + (place == "after"), engine)
     O.engines = engines
 
 

@@ -318,7 +318,7 @@ def test_refusedAssignmentsChangeNothing(name, good, bad):
     gas = GasInvasionEngine()
     value = lambda: [tuple(v) if name == "gasTable" else v for v in getattr(gas, name)] if isinstance(good, list) else getattr(gas, name)
     first = value()
-    with pytest.raises(ValueError, match=f"{name}.* allowed:|equation of state = 'vanDerWaals', allowed: 'ideal'"):
+    with pytest.raises(ValueError, match=f"{name}.* allowed:"):
         setattr(gas, name, bad)
     assert value() == first
     setattr(gas, name, good)

@@ -2,9 +2,9 @@
 
 import pytest
 from yade import O
-from yade.wrapper import (CentralConstantAccelerationEngine, ForceEngine, ForceResetter, GasInvasionEngine, GravityEngine, InteractionLoop,
-                          MeniscusCohesionEngine, NewtonIntegrator, ParallelEngine, PoreNetworkEngine, PyRunner, SinglePhaseFlowEngine,
-                          WallServoEngine)
+from yade.wrapper import (CentralConstantAccelerationEngine, ForceEngine, GasInvasionEngine, GravityEngine,
+                          InteractionLoop, MeniscusCohesionEngine, NewtonIntegrator, ParallelEngine, PoreNetworkEngine,
+                          PyRunner, SinglePhaseFlowEngine, WallServoEngine)
 
 from capfrac import injection, sediment
 
@@ -17,7 +17,7 @@ def scene(handScene):
     """A function () -> (engines that are right without a fluid, by name); four grains that touch in a box."""
 
     def make():
-        handScene([(R, R, R), (2.99 * R, R, R), (R, 2.99 * R, R), (2.99 * R, 2.99 * R, R)], (0, 4 * R, 0, 4 * R), fixed=False)
+        handScene([(x, y, R) for x in (R, 2.99 * R) for y in (R, 2.99 * R)], (0, 4 * R, 0, 4 * R), fixed=False)
         reset, collider, loop, servo, newton = O.engines
         servo.stressX = servo.stressY = 1e3
         servo.dead = False
@@ -48,9 +48,9 @@ def refused(match):
     ("reset collider loop newton fluid", "stands after NewtonIntegrator: .* never reach"),
     ("collider loop fluid newton", "meets no ForceResetter"),
     ("reset collider loop fluid", "meets contacts, but no NewtonIntegrator: nothing would ever move"),
-    ("reset collider loop loop2 fluid newton", r"meets 2 engines where one is allowed \(InteractionLoop, InteractionLoop\)"),
+    ("reset collider loop loop2 fluid newton", r"meets 2 engines where one is allowed \(InteractionLoop, Interac"),
     ("reset collider loop fluid newton newton2", "meets 2 engines where one is allowed"),
-    ("reset collider loop fluid fluid2 newton", "meets 2 engines where one is allowed .*; take one out of O.engines or set its dead"),
+    ("reset collider loop fluid fluid2 newton", "meets 2 engines where one is allowed .*; take one out of O.eng"),
     ("reset collider loop fluid field newton", "stands before CentralConstantAccelerationEngine"),
     ("reset collider loop fluid push newton", "stands before ForceEngine: the forces of that are not there yet"),
 ])
@@ -76,13 +76,13 @@ def test_servoBeforeTheFluid(scene):
     here, engine = scene(), gas()
     O.engines = [here["reset"], here["collider"], here["loop"], here["servo"], engine, here["newton"]]
     refused("^WallServoEngine stands before GasInvasionEngine: the walls would answer to a part of the forces only")
-    with pytest.raises(RuntimeError, match="^GasInvasionEngine stands after WallServoEngine: the walls would not answer to it"):
+    with pytest.raises(RuntimeError, match="^GasInvasionEngine stands after WallServoEngine: the walls would not answ"):
         engine.prepare()
 
 
 @pytest.mark.parametrize("order, name, message", [
     ("servo reset collider loop newton", "WallServoEngine", "stands before ForceResetter"),
-    ("reset collider servo loop newton", "WallServoEngine", "stands before InteractionLoop: the walls would answer to a part"),
+    ("reset collider servo loop newton", "WallServoEngine", "stands before InteractionLoop: the walls would answer"),
     ("reset collider loop newton servo", "WallServoEngine", "stands after NewtonIntegrator"),
     ("reset collider loop servo", "WallServoEngine", "no NewtonIntegrator"),
     ("reset collider loop servo servo2 newton", "WallServoEngine", "2 engines where one is allowed"),
@@ -116,7 +116,7 @@ def nothing():
 @pytest.mark.parametrize("order", [
     "reset collider loop menisci fluid servo newton",
     "reset menisci collider loop fluid servo newton",  # forces add up in any order
-    "reset collider loop weight fluid newton", "reset collider loop fluid weight servo newton",  # gravity is known wherever it stands
+    "reset collider loop weight fluid newton", "reset collider loop fluid weight servo newton",  # both are known
     "dead newtonDead loopDead reset collider loop fluid servo newton newtonDead fluidDead",
     "reset parallel fluid servo newton",
     "reset collider loop fluid newtonDead",  # frozen on purpose
@@ -125,9 +125,9 @@ def nothing():
 def test_placesThatAreRight(scene, order):
     here = scene()
     dead = dict(dead=True)
-    here.update(fluid=gas(), menisci=MeniscusCohesionEngine(label="menisci"), weight=GravityEngine(gravity=(0, -1, 0), warnOnce=False),
-                newtonDead=NewtonIntegrator(**dead), loopDead=InteractionLoop([], [], [], **dead), fluidDead=PoreNetworkEngine(**dead),
-                dead=SinglePhaseFlowEngine(**dead))
+    here.update(fluid=gas(), menisci=MeniscusCohesionEngine(label="menisci"), fluidDead=PoreNetworkEngine(**dead),
+                weight=GravityEngine(gravity=(0, -1, 0), warnOnce=False), newtonDead=NewtonIntegrator(**dead),
+                loopDead=InteractionLoop([], [], [], **dead), dead=SinglePhaseFlowEngine(**dead))
     if "parallel" in order:
         here["parallel"] = ParallelEngine([[here["collider"], here["loop"]], nothing()])
     O.engines = [here[name] for name in order.split()]

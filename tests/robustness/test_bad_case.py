@@ -59,7 +59,7 @@ BAD = [
     (dict(gas__gravity=[9.81]), r"gas.gravity = \[9.81\], allowed: two finite numbers"),
     (dict(grains__rMax=0.5e-3), "grains.rMax = 0.0005 m, allowed: >= grains.rMin = 0.001 m"),
     (dict(grains__rMax=20e-3), "grains.rMax / grains.rMin = 20, allowed: up to 10"),
-    (dict(inlet__pores=0), "no inlet or several; give one of inlet.pores, inlet.from with inlet.to, inlet.points, inlet.middle"),
+    (dict(inlet__pores=0), "no inlet or several; give one of inlet.pores, inlet.whole, inlet.from with inlet.to, inlet.points"),
     (dict(inlet__points=[[1e-3, 1e-3]]), "no inlet or several"), (dict(inlet__middle=1e-3), "no inlet or several"),
     (dict(inlet__pores=0, inlet__middle=-1e-3), r"inlet.middle = -0.001, allowed: a number >= 0 \[m\]"),
     (dict(gas__law="cubic"), "gas.law = 'cubic', allowed: 'incompressible', 'ideal', 'tabulated'"),
