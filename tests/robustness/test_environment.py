@@ -1,5 +1,6 @@
 """Neither the environment nor the files beside a script decide what capfrac computes, or whether it runs."""
 
+import csv
 import os
 import subprocess
 import sys
@@ -93,8 +94,9 @@ def test_pointsOfASweepSayTheirThreads(tmp_path, monkeypatch):
     for name, value in EXPORTED.items():
         monkeypatch.setenv(name, value)
     runSweep(readSweep(path), tmp_path / "sweep")
-    header, line = (tmp_path / "sweep" / "table.csv").read_text().splitlines()
-    assert dict(zip(header.split(","), line.split(",")))["threads [-]"] == "1"
+    with open(tmp_path / "sweep" / "table.csv", newline="") as stream:
+        (line,) = csv.DictReader(stream)
+    assert line["threads [-]"] == "1"
     assert os.environ["OMP_NUM_THREADS"] == EXPORTED["OMP_NUM_THREADS"]  # what else the user starts is not our affair
 
 

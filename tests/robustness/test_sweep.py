@@ -94,18 +94,18 @@ def test_finishedPointsAreNotRunAgain(small, tmp_path, monkeypatch):
 
 def test_failedPointsAreRecordedAndDoNotStopTheRest(tmp_path):
     path = tmp_path / "bad.toml"
-    path.write_text(SMALL.replace("cohesion.chi = [0.0, 10.0]", "grains.normalStiffness = [1e5, 1e7]"))  # the first is too soft for 10 kPa
+    path.write_text(SMALL.replace("inlet.pores = 1\n", "").replace("cohesion.chi = [0.0, 10.0]", "inlet.pores = [99, 1]"))  # wider than the box, as only the sample tells
     result = runSweep(readSweep(path), tmp_path / "sweep")
     assert (result["finished"], result["failed"]) == (1, 1)
     bad, good = rows(tmp_path / "sweep")
     assert (bad["state"], good["state"]) == ("failed", "finished") and bad["mode"] == ""
-    assert "stressV = 10000 Pa is out of reach" in bad["error"]
-    assert "is out of reach" in (tmp_path / "sweep" / "failed" / "normalStiffness100000.txt").read_text()
+    assert "= 99, allowed: 1 …" in bad["error"]
+    assert "= 99, allowed: 1 …" in (tmp_path / "sweep" / "failed" / "pores99.txt").read_text()
     told = []
     runSweep(readSweep(path), tmp_path / "sweep", report=told.append)
     assert told == ["2 points: 1 finished, 1 failed, 0 to run, 1 at a time"]
     runSweep(readSweep(path), tmp_path / "sweep", retry=True, report=told.append)
-    assert "1 to run" in told[1] and "FAILED (stressV" in told[2]
+    assert "1 to run" in told[1] and "= 99, allowed: 1 …" in told[2] and "FAILED" in told[2]
 
 
 def test_aKilledPointCountsAsFailed(small, tmp_path, monkeypatch):

@@ -29,8 +29,9 @@ class SweepFolder:
         self.path, self.sweep = Path(path), sweep
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            # Without sweep.json there may be points, run one by one by the commands of `capfrac sweep --list`.
-            own = (".lock", ".sweep.json", "points")
+            # Without sweep.json there may be points, run one by one by the commands of `capfrac sweep --list`, or what a sweep
+            # has begun with that is just starting, or was killed there.
+            own = (".lock", ".stop", ".sweep.json", "points", "failed")
             foreign = [entry.name for entry in self.path.iterdir() if entry.name not in own]
             if foreign and not (self.path / "sweep.json").exists():
                 raise RunFolderError(f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or new one")
