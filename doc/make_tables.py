@@ -56,7 +56,7 @@ def perParameter(study, key, label, form):
 
 
 def _count(modes):
-    return ", ".join(f"{modes.count(name)} {name}" for name in ("fracture", "mixed", "capillary", "none") if name in modes)
+    return ", ".join(f"{modes.count(name)} {name}" for name in ("fracture", "mixed", "capillary", "none") if name in modes) or "-"
 
 
 TABLES = {
