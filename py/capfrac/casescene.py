@@ -38,8 +38,19 @@ def _inletPoints(inlet, walls):
     if inlet["middle"] is None:
         return [(left + x, bottom + y) for x, y in inlet["points"]]
     x, y = 0.5 * (left + right), 0.5 * (bottom + top)
-    circles = np.linspace(0, inlet["middle"], 4)[1:]
-    return [(x, y)] + [(x + r * math.cos(angle), y + r * math.sin(angle)) for r in circles for angle in np.arange(8) * math.pi / 4]
+    for fine in (1, 2, 4, 8):  # in one sample in a hundred the first 25 points all lie in grains
+        points = [(x, y)] + [(x + r * math.cos(turn), y + r * math.sin(turn))
+                             for r in np.linspace(0, inlet["middle"], 3 * fine + 1)[1:]
+                             for turn in np.arange(8 * fine) * (math.pi / (4 * fine))]
+        if _anyInTheVoid(points):
+            break
+    return points
+
+
+def _anyInTheVoid(points):
+    grains = sediment.grainBodies()
+    places, radii = np.array([tuple(body.state.pos)[:2] for body in grains]), [body.shape.radius for body in grains]
+    return any(np.all(np.linalg.norm(places - point, axis=1) > radii) for point in points)
 
 
 def _increment(case):

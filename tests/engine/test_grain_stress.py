@@ -64,8 +64,8 @@ def test_gasInTheMiddleCountsInTheTotal():
     sediment.bond(capillaryStrength=10 * 0.05)
     walls = {name: wall.state.pos[wall.shape.axis] for name, wall in sediment.wallBodies().items()}
     middle = 0.5 * (walls["left"] + walls["right"]), 0.5 * (walls["bottom"] + walls["top"])
-    # A circle too large for a grain: wherever they lie, some of it is in the void.
-    turns = np.linspace(0, 2 * math.pi, 24, endpoint=False)
+    # A circle too large for a grain: wherever they lie, some of it is in the void, and 200 points find it.
+    turns = np.linspace(0, 2 * math.pi, 200, endpoint=False)
     points = [(middle[0] + 3e-6 * math.cos(turn), middle[1] + 3e-6 * math.sin(turn)) for turn in turns]
     gas = injection.startInjection(start=60e3, increment=0, max=60e3, points=points, outlet="any",
                                    interfacialTension=50.0)

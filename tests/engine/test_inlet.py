@@ -4,6 +4,9 @@ import numpy as np
 import pytest
 from yade import O
 
+from capfrac import casescene
+from capfrac.case import resolveCase
+
 R = 1e-3
 
 
@@ -94,3 +97,15 @@ def test_aPointInAGrainIsNoInlet(rigid):
     gas.inletPoints = [at]
     with pytest.raises(ValueError, match=rf"inletPoints \[m\] = .*, allowed: a point in the void, at least one; this one lies in body #{grain.id}, of radius"):
         gas.prepare()
+
+
+def test_middleFindsTheVoidBetweenItsPoints(handScene):
+    # A grain on the inner points and eight small ones on the outer: all that is looked at first lies in grains.
+    turns = np.arange(8) * np.pi / 4
+    around = [(3 * R * np.cos(turn), 3 * R * np.sin(turn), 0.4 * R) for turn in turns]
+    handScene([(0, 0, 2.5 * R), *around], (-4 * R, 4 * R, -4 * R, 4 * R))
+    gas = casescene.startGas(resolveCase({
+        "grains": {"rMin": 0.4 * R, "rMax": 2.5 * R}, "stress": {"vertical": 10e3, "horizontal": 8e3},
+        "inlet": {"middle": 3 * R}, "network": {"poreMode": "triangle"}, "ramp": {"start": 1, "increment": 1, "max": 2}}))
+    assert list(gas.inletPoints[0]) == [0, 0] and max(np.hypot(*point) for point in gas.inletPoints) <= 3 * R * (1 + 1e-15)
+    assert 0 < gas.inletPores < len(gas.cells()["phase"])
