@@ -42,15 +42,9 @@ def _inletPoints(inlet, walls):
         points = [(x, y)] + [(x + r * math.cos(turn), y + r * math.sin(turn))
                              for r in np.linspace(0, inlet["middle"], 3 * fine + 1)[1:]
                              for turn in np.arange(8 * fine) * (math.pi / (4 * fine))]
-        if _anyInTheVoid(points):
+        if sediment.anyInTheVoid(points):
             break
     return points
-
-
-def _anyInTheVoid(points):
-    grains = sediment.grainBodies()
-    places, radii = np.array([tuple(body.state.pos)[:2] for body in grains]), [body.shape.radius for body in grains]
-    return any(np.all(np.linalg.norm(places - point, axis=1) > radii) for point in points)
 
 
 def _increment(case):

@@ -190,6 +190,13 @@ def grainBodies():
     return [body for body in O.bodies if isinstance(body.shape, Sphere)]
 
 
+def anyInTheVoid(points):
+    """Whether one of the ``points`` (x, y) [m] lies in none of the scene's grains, walls aside."""
+    grains = grainBodies()
+    places, radii = np.array([tuple(body.state.pos)[:2] for body in grains]), [body.shape.radius for body in grains]
+    return any(np.all(np.linalg.norm(places - point, axis=1) > radii) for point in points)
+
+
 def startSettling(sample, gravity=None):
     """Switch gravity on, by default as weak as :func:`settle` says; ``gravity`` in m/s^2, downwards."""
     newton = engine("newton")

@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
+#include <limits>
 
 namespace capfrac {
 
@@ -225,10 +226,11 @@ TEST(Imbibition, CutsARingInTwo)
 	EXPECT_EQ(found.trapped.back(), 699);
 }
 
-/// A lattice with throats at random: the time grows in proportion, as far as times can tell.
+/// A lattice with throats at random: the work grows in proportion. Processor time, the least of several: other programs
+/// on the machine take none of it, and what they cost in passing cannot make 81 of 9, nor 9 of 81.
 TEST(Imbibition, LargeLatticesTakeTheirTimeAndNoMore)
 {
-	auto seconds = [](int side) {
+	auto work = [](int side) {
 		Random            random(side);
 		ImbibitionNetwork network;
 		const int         n = side * side;
@@ -243,12 +245,16 @@ TEST(Imbibition, LargeLatticesTakeTheirTimeAndNoMore)
 					network.snapOff.push_back(random.uniform(-100, 80));
 				}
 		}
-		const auto start = std::chrono::steady_clock::now();
-		const auto found = imbibe(network, 0, true);
-		EXPECT_GT(found.trapped.size(), n / 100u);
-		return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+		std::clock_t least = std::numeric_limits<std::clock_t>::max();
+		for (int k = 0; k < 3; ++k) {
+			const auto start = std::clock();
+			const auto found = imbibe(network, 0, true);
+			least            = std::min(least, std::clock() - start);
+			EXPECT_GT(found.trapped.size(), n / 100u);
+		}
+		return double(least);
 	};
-	const double small = seconds(80), large = seconds(240);
+	const double small = work(80), large = work(240);
 	EXPECT_LT(large, 40 * small) << "9 for N, 81 for N^2";
 }
 
