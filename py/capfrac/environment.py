@@ -14,6 +14,7 @@ from numbers import Integral
 from pathlib import Path
 
 from capfrac.errors import CapfracError
+from capfrac.values import shown
 
 #: Variables that begin like this set threads, their places, or what depends on both: of OpenMP and of the libraries below numpy.
 _OF_THREADS = ("OMP_", "GOMP_", "KMP_", "OPENBLAS_", "GOTO_", "MKL_", "BLIS_", "NUMEXPR_")
@@ -27,7 +28,7 @@ _asked = None  # the number that load_engines was asked for
 def checkThreads(threads):
     """Raise :class:`CapfracError` unless ``threads`` is a number of threads."""
     if isinstance(threads, bool) or not isinstance(threads, Integral) or not 1 <= threads <= MOST_THREADS:
-        raise CapfracError(f"threads = {threads!r}, allowed: a whole number from 1 to {MOST_THREADS}")
+        raise CapfracError(f"threads = {shown(threads)}, allowed: a whole number from 1 to {MOST_THREADS}")
 
 
 def settle(variables, threads=1):
