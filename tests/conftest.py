@@ -181,7 +181,7 @@ def command():
     launcher = Path(capfrac.__file__).parents[2] / "bin" / "capfrac"
 
     def start(*arguments, **options):
-        return subprocess.Popen([launcher, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                **options)
+        return subprocess.Popen([launcher, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                text=True, **options)
 
     return start

@@ -4,6 +4,7 @@ import itertools
 import math
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from capfrac.errors import CaseError
 from capfrac.figures import COLOURS, newFigure, prefix, putLegend, putTitle, saveFigure, saySo, titleOf
@@ -20,8 +21,8 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
 
     ``levels`` and ``events`` are the dicts of ``gas.levels()`` and ``gas.events()``; a level that is not ``finished``
     (where the dict says so) is the end of the run. The second panel shows the share of the invaded throats that had
-    opened (with ``events``) and broken bonds, as a share of ``bondCount`` where that is given. Pressures are those of the
-    engine [Pa]; ``waterPressure`` is taken off. Hollow marks are levels that ended before the grains were at rest.
+    opened (with ``events``) and broken bonds, as a share of ``bondCount`` where that is given. Pressures are those of
+    the engine [Pa]; ``waterPressure`` is taken off. Hollow marks are levels that ended before the grains were at rest.
 
     ``over``: "pressure" for a ramp; "time" for a pressure that goes up and down, as under a rate, from a reservoir or
     through a program. Levels then have a ``time`` [s], too; times count from ``startTime``, ``history`` (that of
@@ -71,12 +72,13 @@ class _Course:
         times = [*levels.get("time", ()), *(events["time"] if events and over == "time" else ())]
         self.second, unit = prefix(max(times, default=start) - start, "s")
         self.label = (f"capillary pressure $P_c$ [{self.unit}]" if over == "pressure" else
-                      f"time since the start of the injection [{unit}]")
+                      f"time since the start [{unit}]")
         self.x = self.pressure if over == "pressure" else self.since(levels["time"])
         states = {name: np.array(levels[name], dtype=float) for name in ("pressure", "gasSaturation", "brokenBonds")}
         self.lineX = self.x
         if history is not None:  # between the levels, too
-            more = {"pressure": history["gasPressure"], **{name: history[name] for name in ("gasSaturation", "brokenBonds")}}
+            more = {"pressure": history["gasPressure"], "gasSaturation": history["gasSaturation"],
+                    "brokenBonds": history["brokenBonds"]}
             self.lineX = np.append(self.since(history["time"]), self.x)
             order = np.argsort(self.lineX, kind="stable")
             self.lineX = self.lineX[order]
@@ -115,8 +117,8 @@ def _drawCurve(axes, course, levels, breakthrough, word):
                                              ("not at rest", "o", 9, "white", finished & ~rest),
                                              ("end of the run", "D", 16, "white", ~finished)):
         if chosen.any():
-            axes.scatter(saturation[chosen], course.pressure[chosen], s=size, c=fill, edgecolors=COLOURS["dot"], linewidths=0.7,
-                         marker=marker, zorder=3, clip_on=False, label=name)
+            axes.scatter(saturation[chosen], course.pressure[chosen], s=size, c=fill, edgecolors=COLOURS["dot"],
+                         linewidths=0.7, marker=marker, zorder=3, clip_on=False, label=name)
     if math.isfinite(breakthrough):
         axes.axhline(breakthrough, label=word, **_DASHED)
 
@@ -125,20 +127,24 @@ def _drawOpening(axes, course, events, bondCount):
     axes.set(ylabel="share" if bondCount else "broken bonds")
     label = "broken bonds / bonds" if bondCount else "broken bonds"
     if len(course.lineX):
-        axes.plot(course.lineX, course.lineBroken / (bondCount or 1), color=COLOURS["broken"], linewidth=1.4, label=label,
-                  marker="." if len(course.lineX) == 1 else None, drawstyle="default" if course.over == "pressure" else "steps-post")
-        axes.set_ylim(bottom=-0.03 if bondCount else None)
+        axes.plot(course.lineX, course.lineBroken / (bondCount or 1), color=COLOURS["broken"], linewidth=1.4,
+                  label=label, marker="." if len(course.lineX) == 1 else None,
+                  drawstyle="default" if course.over == "pressure" else "steps-post")
+    most = 1 if bondCount else max(1, *course.lineBroken, 1)
+    axes.set_ylim(-0.03 * most, 1.03 * most)
+    if not bondCount:
+        axes.yaxis.set_major_locator(MaxNLocator("auto", integer=True))
     if len(course.eventX):
         # Up to the last event at each place: within an avalanche the share says nothing about it.
         at, last = np.unique(course.eventX[::-1], return_index=True)
         last = len(course.eventX) - last
         shares = axes if bondCount else axes.twinx()
-        shares.plot(at, np.cumsum(events["opened"])[last - 1] / last, color=COLOURS["dot"], linewidth=1.4, drawstyle="steps-post",
-                    marker="o", markersize=2.5, label="opened / invaded throats")
+        shares.plot(at, np.cumsum(events["opened"])[last - 1] / last, color=COLOURS["dot"], linewidth=1.4,
+                    drawstyle="steps-post", marker="o", markersize=2.5, label="opened / invaded throats")
         shares.set_ylim(-0.03, 1.03)
         if not bondCount:
             shares.set_ylabel("share of the invaded throats")
-            axes.plot([], [], color=COLOURS["dot"], linewidth=1.4, label="opened / invaded throats")
+            axes.plot([], [], color=COLOURS["dot"], linewidth=1.4, marker="o", markersize=2.5, label="opened / invaded throats")
     if not len(course.shown):
         saySo(axes, "no pore was entered")
 
@@ -149,11 +155,12 @@ def _drawMoving(axes, course, levels):
                                      ("displacementWithRattlers", "all grains", COLOURS["outline"], (0, (2, 2)))):
         values = np.array(levels[key], dtype=float)
         if np.any(values > 0):
-            axes.plot(course.x, np.where(values > 0, values, np.nan), linestyle=line, color=colour, linewidth=1.4, label=label,
-                      marker="." if np.sum(values > 0) == 1 else None)
+            axes.plot(course.x, np.where(values > 0, values, np.nan), linestyle=line, color=colour, linewidth=1.4,
+                      label=label, marker="." if np.sum(values > 0) == 1 else None)
     if not axes.lines:
         saySo(axes, "no grain has moved")
         return
+    axes.yaxis.set_minor_formatter(NullFormatter())
     low, high = (math.log10(v) for v in axes.get_ylim())
     axes.set_ylim(10.0 ** math.floor(low), 10.0 ** max(math.ceil(high), math.floor(low) + 1))  # whole decades
 

@@ -131,6 +131,8 @@ def _drawLoops(axes, tables):
             rows = ([rows[0] - 1] if rows[0] > 0 else []) + rows
             axes.plot([table["gasSaturation"][k] for k in rows], [table["capillaryPressure"][k] for k in rows], color=_COLOURS.get(name, "#555555"),
                       lw=2 if number == 0 else 0.8, alpha=1 if number == 0 else 0.35, label=name if number == 0 else None)
+    if len(tables) > 1:
+        axes.plot([], [], color="#555555", lw=0.8, alpha=0.6, label="other samples, thin")
     table = tables[0]
     back = [k for k, stage in enumerate(table["stage"]) if stage == "imbibition"]
     axes.plot([table["trappedGas"][k] for k in back], [table["capillaryPressure"][k] for k in back], color=_COLOURS["imbibition"], lw=1.3, ls=":",

@@ -87,14 +87,15 @@ def saySo(axes, text):
     axes.minorticks_off()
 
 
-def putLegend(axes):
-    """A legend of what the axes hold, where it hides least; none where they hold nothing."""
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(fontsize=7, frameon=False, loc="best")
+def putLegend(axes, *others):
+    """A legend of what the axes (and others over them) hold, where it hides least; none where they hold nothing."""
+    keys = [key for each in (axes, *others) for key in each.get_legend_handles_labels()[0]]
+    if keys:
+        axes.legend(handles=keys, fontsize=7, framealpha=0.8, edgecolor="none", borderpad=0.2, loc="best")
 
 
 def fitSample(s, width):
-    """Inches per metre, and the size of a sample's picture [inches]: ``width`` wide, but not more than twice as high."""
+    """Inches per metre, and the size of a sample's picture [inches]: ``width`` wide, but at most twice as high."""
     across, up = s.box[1] - s.box[0], s.box[3] - s.box[2]
     scale = min(width / across, 2 * width / up)
     return scale, scale * across, scale * up
@@ -110,7 +111,7 @@ def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
     inches = np.full(len(sides), np.min(inches)) if alike else inches
     height = np.max(inches * sides[:, 1])
     scales = [forceScale or forceScaleOf(*(snapshots if alike else [s])) for s in snapshots]
-    names = [titleOf(_stateOf(s) if title is None else title, width) for s, title in zip(snapshots, titles)]
+    names = [titleOf(stateOf(s) if title is None else title, width) for s, title in zip(snapshots, titles)]
     head = 0.05 + max(high for _, high in names)
     room = len(snapshots) * width + (len(snapshots) - 1) * gap
     handles = _legend(snapshots, 72 * inches[0], forces, bonds, dots, scales, alike)
@@ -120,7 +121,8 @@ def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
     with newFigure(total) as figure:
         for k, (snapshot, (across, up), (title, _)) in enumerate(zip(snapshots, inches[:, None] * sides, names)):
             middle = rim + k * (width + gap) + 0.5 * width
-            axes = figure.add_axes([(middle - 0.5 * across) / total[0], foot / total[1], across / total[0], up / total[1]])
+            axes = figure.add_axes([(middle - 0.5 * across) / total[0], foot / total[1], across / total[0],
+                                    up / total[1]])
             _drawSample(axes, snapshot, 72 * inches[k], forces, bonds, dots, scales[k])
             drawScaleBar(axes, snapshot, inches[k])
             figure.text(middle / total[0], 1 - 0.5 * head / total[1], title, ha="center", va="center", fontsize=10)
@@ -129,7 +131,8 @@ def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
         saveFigure(figure, path)
 
 
-def _stateOf(snapshot):
+def stateOf(snapshot):
+    """Pressure and saturation of a snapshot, as a title."""
     return f"$P_c$ = {quantity(snapshot.capillaryPressure, 'Pa')},   $S_g$ = {snapshot.gasSaturation:.2f}"
 
 
@@ -204,9 +207,10 @@ def bondStrokes(s):
 
 
 def drawInlet(axes, s, points, **marker):
-    """Where the gas comes in: a bar along the wall, or marks at the points; ``points`` (of a line's width) per metre."""
+    """Where the gas comes in: a bar along the wall, or marks at the points; ``points`` (of widths) per metre."""
     if s.inletPoints.size:
-        marker = {"marker": "o", "markersize": 6, "markerfacecolor": "none", "markeredgecolor": COLOURS["inlet"], **marker}
+        marker = {"marker": "o", "markersize": 6, "markerfacecolor": "none", "markeredgecolor": COLOURS["inlet"],
+                  **marker}
         axes.plot(*s.inletPoints.T, linestyle="none", zorder=9, **marker)
     if s.inletWall and s.inletTo > s.inletFrom:
         # A bar just outside of the wall, over the stretch that takes the gas.
@@ -265,7 +269,7 @@ def _legendColumns(handles, room):
 
 
 def titleOf(title, width, size=10):
-    """A title for a figure ``width`` inches wide: its text, in as many lines as it takes (three at most), and the height [inches]."""
+    """A title for a figure ``width`` inches wide: its text, in as many lines as needed (up to 3), and the height [inches]."""
     if not title:
         return "", 0.0
     # 0.6 of the size is the mean width of a letter, with room to spare.

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 from capfrac.figures import COLOURS, newFigure, prefix, putLegend, putTitle, saveFigure, saySo, titleOf
 from capfrac.fracture.passage import gasOfTheInlet
@@ -41,29 +42,26 @@ def courseToTheEnd(gas, shot):
     return {name: values + [row[name]] for name, values in course.items()}
 
 
-def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, waterPressure=0.0, title=None, end=None):
+def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, waterPressure=0.0, title=None):
     """Draw P_c over time, with the pores that the gas entered, and below it saturation and broken bonds.
 
     ``history`` and ``events`` are the dicts of ``gas.history()`` and ``gas.events()``; ``breakthroughIter`` is the
     engine's, -1 where the gas did not reach the outlet. Times count from ``startTime`` [s]; ``waterPressure`` [Pa] is
-    taken off the pressures. The first throat that had opened and the breakthrough are marked. ``end``: the snapshot with
-    which the run ended, which need not be a row of the history. A panel without anything to show says so.
+    taken off the pressures. The first throat that had opened and the breakthrough are marked. A panel without anything
+    to show says so.
     """
     rows = {name: list(history[name]) for name in ("time", "gasPressure", "gasSaturation", "brokenBonds")}
-    if end is not None:
-        for name, value in (("time", end.time), ("gasPressure", end.gasPressure), ("gasSaturation", end.gasSaturation),
-                            ("brokenBonds", len(end.brokenBonds))):
-            rows[name].append(value)
     entries = events if events is not None else {"time": [], "gasPressure": [], "opened": [], "iteration": []}
-    times, pressures = [*rows["time"], *entries["time"]], [*rows["gasPressure"], *entries["gasPressure"]]
+    # Of one step, the entries come before its row: the pressure falls by them.
+    times, pressures = [*entries["time"], *rows["time"]], [*entries["gasPressure"], *rows["gasPressure"]]
     second, unit = prefix(max(times, default=startTime) - startTime, "s")
     pascal, pressureUnit = prefix(max(pressures, default=waterPressure) - waterPressure, "Pa")
     course = _Lines(startTime, second, waterPressure, pascal)
     text, head = titleOf(title, 6.4)
     total = 4.2 + max(0.0, head - 0.3)
     with newFigure((6.4, total)) as figure:
-        grid = {"left": 0.115, "right": 0.885, "bottom": 0.48 / total, "top": 1 - max(head, 0.13) / total, "hspace": 0.12,
-                "height_ratios": (2, 1)}
+        grid = {"left": 0.115, "right": 0.885, "bottom": 0.48 / total, "top": 1 - max(head, 0.13) / total,
+                "hspace": 0.12, "height_ratios": (2, 1)}
         above, below = figure.subplots(2, 1, sharex=True, gridspec_kw=grid)
         _drawPressure(above, course, times, pressures, entries, breakthroughIter)
         above.set(ylabel=f"capillary pressure $P_c$ [{pressureUnit}]")
@@ -72,15 +70,15 @@ def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, 
         through = course.breakthrough(entries, breakthroughIter)
         if math.isfinite(through):
             for axes in (above, below):
-                axes.axvline(through, color="0.45", linewidth=0.9, linestyle=(0, (4, 3)), zorder=1, label="breakthrough" if axes is above else None)
+                axes.axvline(through, color="0.45", linewidth=0.9, linestyle=(0, (4, 3)), zorder=1,
+                             label="breakthrough" if axes is above else None)
         for axes in figure.axes:
             axes.tick_params(labelsize=8)
             axes.spines["top"].set_visible(False)
         above.spines["right"].set_visible(False)
         putLegend(above)
         if bonds is not None:
-            below.legend(handles=[*below.get_legend_handles_labels()[0], *bonds.get_legend_handles_labels()[0]], fontsize=7,
-                         frameon=False, loc="best")
+            putLegend(below, bonds)
         putTitle(figure, text)
         saveFigure(figure, path)
 
@@ -109,15 +107,18 @@ def _drawPressure(axes, course, times, pressures, events, breakthroughIter):
     # Through the entries, too: between two rows of the history the pressure may jump.
     at, values = course.time(times), course.pressure(pressures)
     order = np.argsort(at, kind="stable")
-    axes.plot(at[order], values[order], color=COLOURS["gas"], linewidth=1.3, zorder=2, label="$P_c$", marker="." if len(at) == 1 else None)
-    at, entered, opened = course.time(events["time"]), course.pressure(events["gasPressure"]), np.array(events["opened"], dtype=bool)
-    for name, colour, chosen in (("pore entered, rigid throat", COLOURS["dot"], ~opened), ("pore entered, opened throat", COLOURS["broken"], opened)):
+    axes.plot(at[order], values[order], color=COLOURS["gas"], linewidth=1.3, zorder=2, label="$P_c$",
+              marker="." if len(at) == 1 else None)
+    at, entered = course.time(events["time"]), course.pressure(events["gasPressure"])
+    opened = np.array(events["opened"], dtype=bool)
+    for name, colour, chosen in (("pore entered, rigid throat", COLOURS["dot"], ~opened),
+                                 ("pore entered, opened throat", COLOURS["broken"], opened)):
         if chosen.any():
             axes.plot(at[chosen], entered[chosen], ".", color=colour, markersize=4, zorder=3, label=name)
     if opened.any():
         first = int(np.flatnonzero(opened)[0])
-        axes.plot(at[first], entered[first], "^", color=COLOURS["broken"], markersize=8, markerfacecolor="none", zorder=4,
-                  label="first opened throat")
+        axes.plot(at[first], entered[first], "^", color=COLOURS["broken"], markersize=8, markerfacecolor="none",
+                  zorder=4, label="first opened throat")
 
 
 def _drawGas(axes, course, rows):
@@ -127,10 +128,12 @@ def _drawGas(axes, course, rows):
         return None
     time, dot = course.time(rows["time"]), "." if len(rows["time"]) == 1 else None
     axes.plot(time, rows["gasSaturation"], color=COLOURS["dot"], linewidth=1.3, marker=dot, label="gas saturation")
-    axes.set_ylim(bottom=0)
     bonds = axes.twinx()
-    bonds.plot(time, rows["brokenBonds"], color=COLOURS["broken"], linewidth=1.1, drawstyle="steps-post", marker=dot, label="broken bonds")
+    bonds.plot(time, rows["brokenBonds"], color=COLOURS["broken"], linewidth=1.1, drawstyle="steps-post", marker=dot,
+               label="broken bonds")
     bonds.set_ylabel("broken bonds", color=COLOURS["broken"])
-    bonds.set_ylim(0, 1.05 * max(1, *rows["brokenBonds"]))
+    bonds.yaxis.set_major_locator(MaxNLocator("auto", integer=True))
+    for each, most in ((axes, max(*rows["gasSaturation"], 0.01)), (bonds, max(1, *rows["brokenBonds"]))):
+        each.set_ylim(-0.04 * most, 1.06 * most)  # a line at nothing is a line, too
     axes.yaxis.label.set_color(COLOURS["dot"])
     return bonds

@@ -17,7 +17,8 @@ from dataclasses import asdict
 
 import numpy as np
 
-from capfrac import casescene, curve, environment, export, figures, fracture, history, mode, namedfiles, sediment, snapshot
+from capfrac import (casescene, curve, environment, export, figures, fracture, history, mode, namedfiles, sediment,
+                     snapshot)
 from capfrac.case import readCase, resolveCase
 from capfrac.casepacking import checkPacking
 from capfrac.casewords import inCaseWords
@@ -273,8 +274,9 @@ class Run:
                 "startTime": sample["startTime [s]"], "breakthroughIter": gas.breakthroughIter}
         levels = {**levels, "time": [O.time - (O.iter - iteration) * O.dt for iteration in levels["iteration"]]}
         curve.drawCapillaryCurve(levels, self.folder.path / "curve.png", bondCount=sample["bondsHolding"],
-                                 breakthroughPressure=gas.breakthroughPressure, over="pressure" if self.ramped else "time",
-                                 history=course, breakthroughAtStart="breakthroughPressure" in bounds, **same)
+                                 breakthroughPressure=gas.breakthroughPressure, history=course,
+                                 over="pressure" if self.ramped else "time",
+                                 breakthroughAtStart="breakthroughPressure" in bounds, **same)
         history.drawHistory(course, self.folder.path / "history.png", **same)
 
     def finish(self, reason):

@@ -1,4 +1,4 @@
-"""What holds for every picture: nothing lies over a text, nothing leaves the sheet, every line has its name, no panel is empty."""
+"""What holds for every picture: texts lie apart and on the sheet, all lines have names, no panel is empty."""
 
 import itertools
 
@@ -56,31 +56,39 @@ def _shown(figure, text):
 
 
 def check(figure, panelsWithoutLegend=()):
-    """All of it; raises AssertionError. Axes in ``panelsWithoutLegend`` (samples, maps) have their key beside the panel."""
+    """All of it; raises AssertionError. Axes in ``panelsWithoutLegend`` (samples, maps) have their key beside them."""
     written = texts(figure)
     sheet = figure.bbox
     for text, box in written:
-        assert sheet.x0 - 1 <= box.x0 and box.x1 <= sheet.x1 + 1 and sheet.y0 - 1 <= box.y0 and box.y1 <= sheet.y1 + 1, f"off the sheet: {text!r}"
+        assert (
+            sheet.x0 - 1 <= box.x0 and box.x1 <= sheet.x1 + 1 and sheet.y0 - 1 <= box.y0 and box.y1 <= sheet.y1 + 1
+        ), f"off the sheet: {text!r}"
     for (one, first), (other, second) in itertools.combinations(written, 2):
         width = min(first.x1, second.x1) - max(first.x0, second.x0)
         height = min(first.y1, second.y1) - max(first.y0, second.y0)
         assert width < 1 or height < 1, f"{one!r} and {other!r} overlap by {width:.0f} x {height:.0f} pixels"
     for axes in figure.axes:
         assert holdsSomething(axes), f"empty panel: {axes.get_title() or axes.get_ylabel() or axes.get_position()}"
-    named = [text.get_text() for legend in figure.findobj(matplotlib.legend.Legend) for text in legend.get_texts()]
+    legends = figure.findobj(matplotlib.legend.Legend)
+    keys = {_look(key) for legend in legends for key in legend.findobj(matplotlib.lines.Line2D)}
     for axes in figure.axes:
         if axes.axison and axes not in panelsWithoutLegend:
             for line in axes.lines:
                 if np.isfinite(np.asarray(line.get_ydata(), dtype=float)).any():
-                    label = line.get_label()
-                    same = [other.get_label() for others in figure.axes for other in others.lines
-                            if other.get_color() == line.get_color() and other.get_linestyle() == line.get_linestyle()]
-                    assert label in named or any(name in named for name in same), f"a line without a name in {axes.get_ylabel()!r}"
+                    assert _look(line) in keys, f"a line without a name in {axes.get_ylabel()!r}: {line.get_label()}"
+
+
+def _look(line):
+    """How a line is told from others: its colour, and its dashes or, without a stroke, its marker."""
+    style = line.get_linestyle()
+    return matplotlib.colors.to_hex(line.get_color()), line.get_marker() if style == "None" else style
 
 
 def holdsSomething(axes):
     """Whether axes show data, a bar of colours, or say why they show none."""
-    if any(len(line.get_xdata()) and np.isfinite(np.asarray(line.get_ydata(), dtype=float)).any() for line in axes.lines):
+    if any(
+        len(line.get_xdata()) and np.isfinite(np.asarray(line.get_ydata(), dtype=float)).any() for line in axes.lines
+    ):
         return True
     if any(isinstance(child, (Collection, AxesImage)) for child in axes.get_children()):
         return True

@@ -1,4 +1,4 @@
-"""Whatever runs the points of a sweep: executors of this machine and of a cluster, some that fail, none that is ours to shut down."""
+"""Whatever runs the points of a sweep: executors of this machine, of a cluster, some that fail, none to be shut down."""
 
 import csv
 import os
@@ -69,7 +69,7 @@ class Threads:
 
 
 class Failing:
-    """Futures end without their point having been run; ``ends``: what happens to the future of each point, by its seed."""
+    """Futures end without their point having been run; ``ends``: what happens to the future of each point, in turn."""
 
     def __init__(self, *ends):
         self.ends = list(ends)
@@ -107,7 +107,8 @@ from distributed import Client, LocalCluster
 from capfrac.sweep import readSweep, runSweep
 
 if __name__ == "__main__":
-    with LocalCluster(n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None) as cluster, Client(cluster) as client:
+    one = LocalCluster(n_workers=1, threads_per_worker=2, processes=True, dashboard_address=None)
+    with one as cluster, Client(cluster) as client:
         client.run(__import__("os").chdir, "/")
         executor = client if sys.argv[1] == "client" else client.get_executor()
         result = runSweep(readSweep("small.toml"), "sweep", executor=executor)
@@ -120,36 +121,54 @@ def test_daskRunsPoints(small, whole, tmp_path, how):
     pytest.importorskip("distributed")
     (tmp_path / "run.py").write_text(DASK)
     variables = {**os.environ, "PYTHONPATH": os.pathsep.join(environment.places())}
-    done = subprocess.run([sys.executable, "run.py", how], cwd=tmp_path, env=variables, capture_output=True, text=True, timeout=150)
+    done = subprocess.run(
+        [sys.executable, "run.py", how], cwd=tmp_path, env=variables, capture_output=True, text=True, timeout=150
+    )
     assert "finished 2 then 42" in done.stdout, done.stderr
     assert rows(tmp_path / "sweep") == whole
 
 
 def test_pointsWhoseFutureRaisesFailAndTheRestGoesOn(small, tmp_path):
-    executor = Failing(lambda future: future.set_exception(RuntimeError("the node is gone")),
-                       lambda future: future.set_exception(OSError("no such thing")))
+    executor = Failing(
+        lambda future: future.set_exception(RuntimeError("the node is gone")),
+        lambda future: future.set_exception(OSError("no such thing")),
+    )
     result = runSweep(small, tmp_path / "sweep", executor=executor)
     assert (result["finished"], result["failed"]) == (0, 2)
-    assert [line["error"] for line in rows(tmp_path / "sweep")] == ["RuntimeError: the node is gone", "OSError: no such thing"]
+    assert [line["error"] for line in rows(tmp_path / "sweep")] == [
+        "RuntimeError: the node is gone",
+        "OSError: no such thing",
+    ]
 
 
 def test_cancelledPointsStayOpen(small, whole, tmp_path):
     told = []
-    result = runSweep(small, tmp_path / "sweep", executor=Failing(futures.Future.cancel, futures.Future.cancel), report=told.append)
+    result = runSweep(
+        small, tmp_path / "sweep", executor=Failing(futures.Future.cancel, futures.Future.cancel), report=told.append
+    )
     assert (result["finished"], result["failed"], result["points"]) == (0, 0, 2)
-    assert told[1:] == ["seed1: cancelled", "seed2: cancelled"] and [line["state"] for line in rows(tmp_path / "sweep")] == ["open"] * 2
+    assert (
+        told[1:] == ["seed1: cancelled", "seed2: cancelled"]
+        and [line["state"] for line in rows(tmp_path / "sweep")] == ["open"] * 2
+    )
     assert runSweep(small, tmp_path / "sweep")["finished"] == 2 and rows(tmp_path / "sweep") == whole
 
 
 def test_aBrokenExecutorFailsNoPoint(small, tmp_path):
     with pytest.raises(CapfracError, match="the executor broke .*a worker died.*; the same call goes on"):
-        runSweep(small, tmp_path / "sweep", executor=Failing(*[lambda future: future.set_exception(futures.BrokenExecutor("a worker died"))] * 2))
+        runSweep(
+            small,
+            tmp_path / "sweep",
+            executor=Failing(*[lambda future: future.set_exception(futures.BrokenExecutor("a worker died"))] * 2),
+        )
     assert [line["state"] for line in rows(tmp_path / "sweep")] == ["open"] * 2
     closed = futures.ThreadPoolExecutor(1)
     closed.shutdown()
     with pytest.raises(CapfracError, match="the executor takes no point .*shutdown"):
         runSweep(small, tmp_path / "sweep", executor=closed)
-    assert [line["state"] for line in rows(tmp_path / "sweep")] == ["open"] * 2 and not (tmp_path / "sweep" / ".stop").exists()
+    assert [line["state"] for line in rows(tmp_path / "sweep")] == ["open"] * 2 and not (
+        tmp_path / "sweep" / ".stop"
+    ).exists()
 
 
 @pytest.mark.parametrize("executor", [5, "dask", object()])
@@ -180,16 +199,26 @@ if __name__ == "__main__":
 @pytest.mark.parametrize("whom", ["one", "all"])
 @pytest.mark.parametrize("kind", ["ThreadPoolExecutor", "ProcessPoolExecutor"])
 def test_interruptedPointsOfAnyExecutorStop(tmp_path, kind, whom):
-    text = SMALL.replace("seed = [1, 2]", "seed = [1, 2, 3, 4]").replace("ramp = {start = 165.0, increment = 5.0, max = 170.0}",
-                                                                        "ramp = {start = 150.0, increment = 0.01, max = 170.0}")
+    text = SMALL.replace("seed = [1, 2]", "seed = [1, 2, 3, 4]").replace(
+        "ramp = {start = 165.0, increment = 5.0, max = 170.0}", "ramp = {start = 150.0, increment = 0.01, max = 170.0}"
+    )
     (tmp_path / "long.toml").write_text(text)
     (tmp_path / "run.py").write_text(LONG)
     variables = {**os.environ, "PYTHONPATH": os.pathsep.join(environment.places())}
-    process = subprocess.Popen([sys.executable, "run.py", kind], cwd=tmp_path, env=variables, stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True, start_new_session=True)
+    process = subprocess.Popen(
+        [sys.executable, "run.py", kind],
+        cwd=tmp_path,
+        env=variables,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
     points = [tmp_path / "sweep" / "points" / f"seed{seed}" for seed in (1, 2, 3, 4)]
     waitFor(process, lambda: all((point / "checkpoint.yade.gz").exists() for point in points[:2]))
-    (os.killpg if whom == "all" else os.kill)(process.pid, signal.SIGINT)  # Ctrl-C in a terminal reaches all of the group
+    (os.killpg if whom == "all" else os.kill)(
+        process.pid, signal.SIGINT
+    )  # Ctrl-C in a terminal reaches all of the group
     output, errors = process.communicate(timeout=100)
     assert process.returncode == 130 and "interrupted" in output, errors
     assert [readSummary(point).get("state") for point in points] == ["interrupted", "interrupted", None, None]
@@ -198,8 +227,17 @@ def test_interruptedPointsOfAnyExecutorStop(tmp_path, kind, whom):
 
 def test_aPointThatFindsTheStopDoesNotBegin(tmp_path):
     (tmp_path / "stop").touch()
-    outcome = execution.runPoint({"name": "a", "place": str(tmp_path), "folder": str(tmp_path / "run"), "key": "", "threads": 1,
-                                  "arguments": ["figure15"], "stop": str(tmp_path / "stop")})
+    outcome = execution.runPoint(
+        {
+            "name": "a",
+            "place": str(tmp_path),
+            "folder": str(tmp_path / "run"),
+            "key": "",
+            "threads": 1,
+            "arguments": ["figure15"],
+            "stop": str(tmp_path / "stop"),
+        }
+    )
     assert outcome["status"] == 130 and not (tmp_path / "run").exists() and outcome["seconds"] < 1
 
 

@@ -9,7 +9,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, Rectangle
 from matplotlib.ticker import MaxNLocator, NullLocator
 
-from capfrac.figures import COLOURS, bondStrokes, drawInlet, drawScaleBar, fitSample, newFigure, prefix, quantity, saveFigure, titleOf
+from capfrac.figures import (COLOURS, bondStrokes, drawInlet, drawScaleBar, fitSample, newFigure, prefix, quantity,
+                             saveFigure, stateOf, titleOf)
 from capfrac.fracture import orientation, stress, throats
 
 #: Colours of apertures, light to dark, and of stress: brown compression and green tension, as the contact forces.
@@ -20,8 +21,8 @@ _PATH, _STRETCHED, _PALE = "#15323f", "#6f9cc4", "#b3d6f4"
 def drawFracture(shot, found, path, advance=None):
     """One fracture: gas, cracked throats coloured by aperture, branches and tips; beside it what there is to show.
 
-    That is the rose of directions where there are branches, and with ``advance`` (see :func:`report.tipAdvance`) how far
-    each tip had come at which pressure. ``path``: .png, .pdf or .svg.
+    That is the rose of directions where there are branches, and with ``advance`` (see :func:`report.tipAdvance`) how
+    far each tip had come at which pressure. ``path``: .png, .pdf or .svg.
     """
     scale, across, up = fitSample(shot, 4.6)
     angles, lengths = orientation.branchSteps(found)
@@ -35,16 +36,19 @@ def drawFracture(shot, found, path, advance=None):
     total = np.array([4.9 + (3.15 if rose or advanced else 0.0), head + 0.1 + frame + foot + bar])
     with newFigure(total) as figure:
         base = foot + bar + frame - up
-        axes = figure.add_axes([(0.15 + 0.5 * (4.6 - across)) / total[0], base / total[1], across / total[0], up / total[1]])
+        axes = figure.add_axes([(0.15 + 0.5 * (4.6 - across)) / total[0], base / total[1], across / total[0],
+                                up / total[1]])
         colours = drawCrack(axes, shot, found, 72 * scale)
         figure.text(2.45 / total[0], (base + up + 0.06) / total[1], title, ha="center", va="bottom", fontsize=10)
         drawScaleBar(axes, shot, scale)
         if bar:
-            colourBar(figure, figure.add_axes([0.15 / total[0], (base - 0.36) / total[1], 2.3 / total[0], 0.1 / total[1]]), colours)
+            place = [0.15 / total[0], (base - 0.36) / total[1], 2.3 / total[0], 0.1 / total[1]]
+            colourBar(figure, figure.add_axes(place), colours)
         _putKeys(figure, keys, 3)
         side = 5.45 / total[0]
         if rose:
-            drawRose(figure.add_axes([side, 1 - 2.3 / total[1], 2.2 / total[0], 1.75 / total[1]], projection="polar"), angles, lengths)
+            place = [side, 1 - 2.3 / total[1], 2.2 / total[0], 1.75 / total[1]]
+            drawRose(figure.add_axes(place, projection="polar"), angles, lengths)
         if advanced:
             high = min(2.0, total[1] - 0.6 - 2.65 * rose)
             _drawAdvance(figure.add_axes([side, 0.5 / total[1], 1.95 / total[0], high / total[1]]), found, advance)
@@ -63,7 +67,8 @@ def _keysOf(shot, found):
     if len(shot.brokenBonds):
         keys.append(Line2D([], [], color=COLOURS["broken"], linewidth=1.5, label="broken bond"))
     if found.fractureBranches:
-        keys.append(Line2D([], [], color=_PATH, linewidth=1.2, marker="o", markersize=5, markerfacecolor="white", label="branch and its tip"))
+        keys.append(Line2D([], [], color=_PATH, linewidth=1.2, marker="o", markersize=5, markerfacecolor="white",
+                           label="branch and its tip"))
     if shot.inletPoints.size or (shot.inletWall and shot.inletTo > shot.inletFrom):
         mark = {"marker": "*", "linestyle": "none", "markeredgewidth": 0} if shot.inletPoints.size else {"linewidth": 4}
         keys.append(Line2D([], [], color=COLOURS["inlet"], markersize=7, solid_capstyle="butt", label="inlet", **mark))
@@ -103,7 +108,8 @@ def drawCrack(axes, shot, found, points, largest=None):
     axes.add_collection(LineCollection(strokes, colors=COLOURS["broken"], linewidths=0.2 * radius, zorder=5, capstyle="butt"))
     for number, branch in enumerate(found.fractureBranches, start=1):
         axes.plot(*branch.path.T, color=_PATH, linewidth=0.16 * radius, zorder=6)
-        axes.plot(*branch.tip, marker="o", markersize=max(3.0, 1.1 * radius), markerfacecolor="white", markeredgecolor=_PATH, markeredgewidth=0.9, zorder=7)
+        axes.plot(*branch.tip, marker="o", markersize=min(max(3.0, 1.1 * radius), 12.0), markerfacecolor="white",
+                  markeredgecolor=_PATH, markeredgewidth=0.9, zorder=7)
         axes.text(*branch.tip, str(number), fontsize=max(3.5, min(7, 0.9 * radius)), ha="center", va="center", zorder=8)
     drawInlet(axes, shot, points, marker="*", markersize=7 if len(shot.inletPoints) == 1 else max(4.0, 0.8 * radius),
               markerfacecolor=COLOURS["inlet"], markeredgewidth=0)
@@ -154,15 +160,16 @@ def _drawAdvance(axes, found, advance):
     load = axes.twinx()
     pascal, unit = prefix(pressure.max(), "Pa")
     dot = "." if len(time) == 1 else None
-    load.plot(time / 10.0**power, pressure / pascal, color="0.7", linewidth=1.0, drawstyle="steps-post", zorder=1, marker=dot)
+    load.plot(time / 10.0**power, pressure / pascal, color="0.7", linewidth=1.0, drawstyle="steps-post", zorder=1,
+              marker=dot)
     load.set_ylabel(f"$P_c$ [{unit}]", color="0.5", fontsize=8)
     axes.plot([], [], color="0.7", linewidth=1.0, label="$P_c$")
     branches = sorted(set(advance["branch"]))
     for n in branches:
         mine = np.array(advance["branch"]) == n
         name = f"tip {n}" if n <= 6 else f"tips 7 to {branches[-1]}" if n == min(k for k in branches if k > 6) else None
-        axes.plot(time[mine] / 10.0**power, distance[mine], marker="o", markersize=2.5, linewidth=1.0, drawstyle="steps-post",
-                  color=f"C{n - 1}" if n <= 6 else "0.4", label=name, zorder=3)
+        axes.plot(time[mine] / 10.0**power, distance[mine], marker="o", markersize=2.5, linewidth=1.0,
+                  drawstyle="steps-post", color=f"C{n - 1}" if n <= 6 else "0.4", label=name, zorder=3)
     axes.set(xlabel=f"time since the first pore [{quantity(10.0**power, 's').split()[1]}]", ylim=(0, None))
     axes.set_ylabel("tip to inlet / mean diameter", fontsize=8)
     axes.set_zorder(load.get_zorder() + 1), axes.patch.set_visible(False)  # tips and their names over the pressure
@@ -173,10 +180,10 @@ def _drawAdvance(axes, found, advance):
 
 
 def drawStress(fields, path, smoothing=stress.SMOOTHING, titles=None):
-    """The smoothed effective stress in snapshots side by side: mean stress as colour, the larger principal stress as strokes.
+    """The smoothed effective stress in snapshots side by side: its mean as colour, the larger principal one as strokes.
 
-    ``fields``: pairs (Snapshot, GrainStress). Strokes are as long as the difference of the principal stresses is large. One
-    scale for all.
+    ``fields``: pairs (Snapshot, GrainStress). Strokes are as long as the difference of the principal stresses is large.
+    One scale for all.
     """
     grids = [_stressGrid(shot, grains, smoothing) for shot, grains in fields]
     means = np.concatenate([0.5 * (g["fine"][0] + g["fine"][1]).ravel() for g in grids])
@@ -184,23 +191,24 @@ def drawStress(fields, path, smoothing=stress.SMOOTHING, titles=None):
     deviator = max(float(np.percentile(g["coarse"][0] - g["coarse"][1], 95)) for g in grids) or 1.0
     width, rim = 3.6, 0.2
     sizes = [fitSample(shot, width)[1:] for shot, _ in fields]
-    names = titles or [f"$P_c$ = {quantity(s.capillaryPressure, 'Pa')}, $S_g$ = {s.gasSaturation:.2f}" for s, _ in fields]
-    names = [titleOf(name, width, 9) for name in names]
+    names = [titleOf(titles[k] if titles else stateOf(shot), width, 9) for k, (shot, _) in enumerate(fields)]
     keys = [Line2D([], [], color="0.15", linewidth=0.8, label="direction of the larger principal stress"),
             *([Patch(color=COLOURS["gas"], label="gas")] if any(np.any(shot.gasCells) for shot, _ in fields) else [])]
-    foot = 0.95 + 0.16 * len(keys)
-    total = np.array([len(fields) * (width + rim) + rim, foot + max(up for _, up in sizes) + max(head for _, head in names) + 0.05])
+    foot = 0.8 + 0.16 * len(keys)
+    head = max(high for _, high in names)
+    total = np.array([len(fields) * (width + rim) + rim, foot + max(up for _, up in sizes) + head + 0.05])
     with newFigure(total) as figure:
         for k, ((shot, _), g, (across, up), (text, _)) in enumerate(zip(fields, grids, sizes, names)):
             left = rim + k * (width + rim) + 0.5 * (width - across)
             axes = figure.add_axes([left / total[0], foot / total[1], across / total[0], up / total[1]])
-            image = axes.imshow(0.5 * (g["fine"][0] + g["fine"][1]), extent=shot.box, origin="lower", cmap=STRESSES, vmin=-largest,
-                                vmax=largest, interpolation="bilinear", aspect="auto")
+            image = axes.imshow(0.5 * (g["fine"][0] + g["fine"][1]), extent=shot.box, origin="lower", cmap=STRESSES,
+                                vmin=-largest, vmax=largest, interpolation="bilinear", aspect="auto")
             _drawPrincipal(axes, g, deviator)
             gas = [shot.polygon(c) for c in np.flatnonzero(shot.gasCells)]
             axes.add_collection(PolyCollection(gas, facecolors=COLOURS["gas"], edgecolors=COLOURS["gas"], linewidths=0.5))
             axes.set(xlim=shot.box[:2], ylim=shot.box[2:], xticks=[], yticks=[])
-            figure.text((left + 0.5 * across) / total[0], (foot + up + 0.06) / total[1], text, ha="center", va="bottom", fontsize=9)
+            figure.text((left + 0.5 * across) / total[0], (foot + up + 0.06) / total[1], text, ha="center",
+                        va="bottom", fontsize=9)
         middle = 0.5 * total[0]
         bar = figure.add_axes([(middle - 1.6) / total[0], (foot - 0.3) / total[1], 3.2 / total[0], 0.09 / total[1]])
         bar = figure.colorbar(image, cax=bar, orientation="horizontal")
@@ -209,8 +217,8 @@ def drawStress(fields, path, smoothing=stress.SMOOTHING, titles=None):
         bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value / pascal:g}")
         bar.set_label(f"mean effective stress [{unit}], compression positive", fontsize=7.5)
         bar.ax.tick_params(labelsize=7)
-        figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.05 / total[1]), fontsize=7, frameon=False,
-                      borderaxespad=0, borderpad=0, labelspacing=0.35)
+        figure.legend(handles=keys, loc="lower center", bbox_to_anchor=(0.5, 0.05 / total[1]), fontsize=7,
+                      frameon=False, borderaxespad=0, borderpad=0, labelspacing=0.35)
         saveFigure(figure, path)
 
 
@@ -238,8 +246,8 @@ def _drawPrincipal(axes, g, deviator):
 def drawFractures(panels, path, columns=3, width=2.6, rose=True, titles=None):
     """Fractures side by side, and the rose of all their branches: ``panels`` are pairs (Snapshot, Fracture).
 
-    One scale of apertures for all; each sample to its own scale of lengths, with a bar. Rose and scale are left out where
-    nothing has fractured.
+    One scale of apertures for all; each sample to its own scale of lengths, with a bar. Rose and scale are left out
+    where nothing has fractured.
     """
     columns = min(columns, len(panels))
     rows = math.ceil(len(panels) / columns)
@@ -254,28 +262,29 @@ def drawFractures(panels, path, columns=3, width=2.6, rose=True, titles=None):
     foot = 0.2 + 0.15 * math.ceil(len(keys) / across) + 0.5 * bar
     cell = np.array([width + 0.15, height + head + 0.3])
     total = np.array([columns * cell[0] + 0.15 + 2.3 * rose, rows * cell[1] + foot])
-    largest = max((float(np.nanmax(f.aperture[f.inGas & f.cracked], initial=0)) / (0.5 * f.diameter) for _, f in panels), default=0.1)
+    largest = max(float(np.nanmax(f.aperture[f.inGas & f.cracked], initial=0)) / (0.5 * f.diameter) for _, f in panels)
     with newFigure(total) as figure:
         for k, (shot, found) in enumerate(panels):
             scale, wide, up = fitSample(shot, width)
             corner = np.array([0.15 + (k % columns) * cell[0], foot + (rows - 1 - k // columns) * cell[1] + 0.25])
-            axes = figure.add_axes([(corner[0] + 0.5 * (width - wide)) / total[0], (corner[1] + 0.5 * (height - up)) / total[1],
-                                    wide / total[0], up / total[1]])
+            axes = figure.add_axes([(corner[0] + 0.5 * (width - wide)) / total[0],
+                                    (corner[1] + 0.5 * (height - up)) / total[1], wide / total[0], up / total[1]])
             colours = drawCrack(axes, shot, found, 72 * scale, max(1.0, largest))
-            figure.text((corner[0] + width / 2) / total[0], (corner[1] + height + 0.06) / total[1], names[k][0], ha="center",
-                        va="bottom", fontsize=8)
+            figure.text((corner[0] + width / 2) / total[0], (corner[1] + height + 0.06) / total[1], names[k][0],
+                        ha="center", va="bottom", fontsize=8)
             drawScaleBar(axes, shot, scale)
         if bar:
-            colourBar(figure, figure.add_axes([0.15 / total[0], (foot - 0.12) / total[1], 2.3 / total[0], 0.08 / total[1]]), colours)
+            place = [0.15 / total[0], (foot - 0.12) / total[1], 2.3 / total[0], 0.08 / total[1]]
+            colourBar(figure, figure.add_axes(place), colours)
         _putKeys(figure, keys, across)
         if rose:
-            drawRose(figure.add_axes([(total[0] - 2.05) / total[0], 0.5 - 0.75 / total[1], 1.8 / total[0], 1.6 / total[1]],
-                                     projection="polar"), *steps)
+            place = [(total[0] - 2.05) / total[0], 0.5 - 0.75 / total[1], 1.8 / total[0], 1.6 / total[1]]
+            drawRose(figure.add_axes(place, projection="polar"), *steps)
         saveFigure(figure, path)
 
 
 def _putKeys(figure, keys, columns):
     width, height = figure.get_size_inches()
-    figure.legend(handles=keys, ncol=columns, loc="lower left", bbox_to_anchor=(0.15 / width, 0.05 / height), fontsize=7,
-                  frameon=False, borderaxespad=0, borderpad=0, handlelength=1.6, columnspacing=1.2, handletextpad=0.5,
-                  labelspacing=0.35)
+    figure.legend(handles=keys, ncol=columns, loc="lower left", bbox_to_anchor=(0.15 / width, 0.05 / height),
+                  fontsize=7, frameon=False, borderaxespad=0, borderpad=0, handlelength=1.6, columnspacing=1.2,
+                  handletextpad=0.5, labelspacing=0.35)

@@ -161,6 +161,7 @@ def _drawRun(path, shots, moment, found, advance, write):
     write("fracture.png", lambda target: figures.drawFracture(shots[moment], found, target, advance=advance))
     fields = [(shots[name], stress.loadStress(path / "snapshots" / f"{name}-stress.npz")) for name in ("start", "initiation", "breakthrough")
               if (path / "snapshots" / f"{name}-stress.npz").exists()]
+    fields.sort(key=lambda field: field[0].time)  # the first throat that opens may do so after the gas has come through
     if fields:
         write("stress.png", lambda target: figures.drawStress(fields[-2:], target))
 
