@@ -37,7 +37,7 @@ def test_pointsHaveTheValuesOfAxesSetAndRules():
     assert point.case["grains"]["rMax"] == 2e-5 and point.values["rMean"] == pytest.approx(1.5e-5, rel=1e-15)
     assert point.case["ramp"]["start"] == pytest.approx(2 * 0.05 / 1.5e-5, rel=1e-15)
     # What nothing says is the base's; the base's title stays with the case.
-    assert point.case["inlet"]["pores"] == 6 and point.case["stress"]["horizontal"] == 8e3
+    assert point.case["inlet"]["pores"] == 8 and point.case["stress"]["horizontal"] == 8e3
     assert sweep.columns == {"grains.rMin": "m", "grains.seed": "-", "cohesion.chi": "-", "rMean": "m", "ramp.start": "Pa", "ramp.max": "Pa", "grains.rMax": "m"}
 
 
