@@ -114,7 +114,7 @@ def test_missingKeyIsNamed(missing):
 
 
 def test_caseFilesThatCannotBeRead(tmp_path):
-    with pytest.raises(CaseError, match="the case 'nowhere.toml' cannot be read .*; shipped cases: figure14, figure14_vertical, figure15, figure15_solved, figure16, figure16_rate, figure16_solved, hydrate_ridge"):
+    with pytest.raises(CaseError, match="the case 'nowhere.toml' cannot be read .*; shipped cases: figure14, figure14_vertical, figure15, figure15_solved, figure16, figure16_rate, figure16_small, figure16_solved, hydrate_ridge"):
         case.readCase("nowhere.toml")
     (tmp_path / "broken.toml").write_text("[grains\n")
     with pytest.raises(CaseError, match="broken.toml is not valid TOML: "):

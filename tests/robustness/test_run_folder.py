@@ -129,9 +129,9 @@ def test_sceneWithBodiesIsNotThrownAway(tmp_path, handScene, looseDisks, sceneSt
     assert sceneState() == before and not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("inlet, message", [({"pores": 99}, "nPores = 99, allowed: 1 … "), ({"from": 0.0, "to": 1.0}, "the inlet is wider than its wall"),
-                                            ({"points": [[1.0, 1.0]]}, "inletPoints .* allowed: points inside the box"),
-                                            ({"middle": 1.0}, "inletPoints .* allowed: points inside the box")])
+@pytest.mark.parametrize("inlet, message", [({"pores": 99}, "inlet.pores = 99, allowed: 1 … "), ({"from": 0.0, "to": 1.0}, "inlet.from = 0, inlet.to = 1 m, allowed: 0 … "),
+                                            ({"points": [[1.0, 1.0]]}, r"inlet.points .* allowed: points inside the box"),
+                                            ({"middle": 1.0}, r"inlet.points .* allowed: points inside the box")])
 def test_inletThatDoesNotFitTheSampleLeavesNothing(tmp_path, inlet, message):
     # Known only when the sample is made, so the folder exists by then.
     case = resolveCase({"grains": {"rMin": 1e-3, "count": 10}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "inlet": inlet,

@@ -116,8 +116,10 @@ def test_pressuresAreThoseOfColumnsAtRest(halfFull):
 def test_fluidsWithoutWeightAreAsBefore(halfFull):
     plain = halfFull()
     events, forces = plain.events(), plain.fluidForces()
-    again = halfFull(gravity=(0, -9.81))
+    again = halfFull(fluidDensity=1000, gasDensity=80)  # without gravity they have no weight
     assert again.events() == events and again.fluidForces() == forces
+    with pytest.raises(ValueError, match="gravity .* while no fluid has a density"):
+        halfFull(gravity=(0, -9.81))
 
 
 def test_stableAndUnstableFronts():
