@@ -4,6 +4,7 @@ A file knows nothing of the case, so a unit that was forgotten shows only where 
 beside ``grains.rMin = 0.94e-3`` (m) would make a box of 15 m and entry pressures of a thousandth.
 """
 
+import functools
 import math
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from capfrac.case import KEYS, MAX_SIZE_RATIO
 from capfrac.errors import CaseError
+from capfrac.namedfiles import digests
 from capfrac.packing import BOULDER, checkOverlaps, readPackingTable
 
 #: Number of grains of a case that does not say it.
@@ -38,23 +40,32 @@ def checkPacking(case):
     Raises :class:`CaseError` naming file, line and key for one that cannot be read, whose grains lie in each other or
     far apart, or that contradicts ``grains.rMin``, ``grains.rMax`` or ``grains.count``.
     """
-    table = packingOf(case)
-    if table is None:
+    grains, folder = case["grains"], case["case"].get("folder", ".")
+    if not grains["packing"]:
         return []
-    r, grains = table.values["r"], case["grains"]
+    content = digests(case, folder)["grains.packing"]["sha256"]
+    return list(_checked(Path(folder) / grains["packing"], content, grains["rMin"], grains["rMax"], grains["count"]))
+
+
+@functools.lru_cache(maxsize=16)  # the points of a sweep share a packing
+def _checked(path, content, rMin, rMax, count):
+    """The same of a file, whose ``content`` is told by its digest."""
+    table = readPackingTable(path)
+    r = table.values["r"]
     low, high = int(r.argmin()), int(r.argmax())
     if r[high] > MAX_SIZE_RATIO * r[low]:
         raise CaseError(f"{table.where(high)}: r = {r[high]:g} m, {r[high] / r[low]:.3g} times that of line "
                         f"{table.lines[low]}, {r[low]:g} m; allowed: up to {MAX_SIZE_RATIO} times")
-    told = _compare(table, low, "rMin", grains["rMin"], "smallest")
-    if grains["rMax"] is not None and (grains["rMin"] is None or grains["rMax"] != 2 * grains["rMin"]):  # no default
-        told += _compare(table, high, "rMax", grains["rMax"], "largest")
-    if grains["count"] not in (DEFAULT_COUNT, len(r)):
-        raise CaseError(f"grains.count = {grains['count']}, but {table.path} holds {len(r)} grains; "
+    told = _compare(table, low, "rMin", rMin, "smallest")
+    if rMax is not None and (rMin is None or rMax != 2 * rMin):  # else it is the default
+        told += _compare(table, high, "rMax", rMax, "largest")
+    if count not in (DEFAULT_COUNT, len(r)):
+        raise CaseError(f"grains.count = {count}, but {table.path} holds {len(r)} grains; "
                         "allowed: their number, or no grains.count")
     _checkPlaces(table)
     if r[high] > BOULDER:
-        told.append(f"{table.where(high)}: r = {r[high]:g} m, a boulder; {_meant(r[high] / 1e-3)}")
+        told.append(f"{table.where(high)}: r = {r[high]:g} m, a boulder; are the numbers of the file in mm or um? Then "
+                    "write the unit behind the names of its columns, r [mm]")
     return told
 
 

@@ -99,8 +99,8 @@ def test_count(tmp_path):
 
 def test_boulders(tmp_path):
     text, = told(write(tmp_path / "p.csv", 1e3), rMin=0.95)
-    assert text.endswith(": r = 0.99 m, a boulder; are the numbers of the file in mm? Then name its columns x [mm], "
-                         "y [mm], r [mm]")
+    assert text.endswith(": r = 0.99 m, a boulder; are the numbers of the file in mm or um? Then write the unit behind "
+                         "the names of its columns, r [mm]")
 
 
 @pytest.mark.parametrize("places", [1e2, 1e3, 1e6])
@@ -170,4 +170,4 @@ def test_packingWithoutRadiiInTheCase(tmp_path):
     assert casepacking.checkPacking(case) == []
     write(path, 1e3)  # nothing to compare with, but grains of a metre
     text, = casepacking.checkPacking(case)
-    assert "a boulder; are the numbers of the file in mm?" in text
+    assert "a boulder; are the numbers of the file in mm or um?" in text

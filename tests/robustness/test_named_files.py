@@ -127,14 +127,12 @@ def test_changedCurvesAreNotTheTestThatIsThere(tmp_path, test, entries, first, t
     curve.write_text(first)
     values = labValues(test, **entries)
     key = next(iter(namedfiles.digests(values, tmp_path)))
-    sample = parameters.sedimentOf({**labValues("settle")["grains"], **values["grains"]}, tmp_path)
-    graded = {} if sample.grading is None else {"grading": {"name": "Sieve", **vars(sample.grading)}}
-    held = LabRun(test, {**values, **graded}, tmp_path / "run", files=namedfiles.digests(values, tmp_path))
+    held = LabRun(test, values, tmp_path / "run", files=namedfiles.digests(values, tmp_path))
     held.finish({"told": 1})
     assert lab.runTest(test, values, tmp_path / "run", base=tmp_path) == {"told": 1}
     assert held.summary["files"][key]["file"] == "curve.csv"
     curve.write_text(then)
-    with pytest.raises(RunFolderError, match="curve.csv"):
+    with pytest.raises(RunFolderError, match="holds a run of an earlier content of curve.csv, changed since"):
         lab.runTest(test, values, tmp_path / "run", base=tmp_path)
     curve.write_text(first)
     assert lab.runTest(test, values, tmp_path / "run", base=tmp_path) == {"told": 1}
@@ -142,6 +140,22 @@ def test_changedCurvesAreNotTheTestThatIsThere(tmp_path, test, entries, first, t
 
 def test_sieveThatIsNotUsedDoesNotCount(tmp_path):
     assert namedfiles.namedFiles(labValues("settle", grains__sieve="no.csv"), tmp_path) == {}
+
+
+def test_gradingIsKept(tmp_path):
+    (tmp_path / "curve.csv").write_text("diameter [mm],passing\n1,0\n2,100\n")
+    values = labValues("settle", grains__distribution="sieve", grains__sieve="curve.csv", grains__count=10)
+    lab.runTest("settle", values, tmp_path / "run", base=tmp_path)
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["grading"] == {"name": "Sieve", "diameter": [0.001, 0.002], "passing": [0, 100]}
+
+
+def test_boulders(tmp_path):
+    (tmp_path / "curve.csv").write_text("diameter,passing\n1,0\n2,100\n")
+    values = labValues("settle", grains__distribution="sieve", grains__sieve="curve.csv", grains__count=10)
+    lab.runTest("settle", values, tmp_path / "run", base=tmp_path)
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["warnings"] == ["grains of up to r = 1 m, boulders: is a number in mm that is meant to be in m?"]
 
 
 # ---- sweeps

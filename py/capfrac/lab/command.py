@@ -51,12 +51,12 @@ def runTest(test, values, folder=None, restart=False, report=lambda text: None, 
 
     values, more = parameters.resolveTelling(test, values)
     sample = parameters.sedimentOf({**_defaults("settle")["grains"], **values["grains"]}, base)
-    if sample.grading is not None:  # for people who read the summary
-        values = {**values, "grading": {"name": type(sample.grading).__name__, **vars(sample.grading)}}
     run = LabRun(test, values, folder, restart, report, namedfiles.digests(values, base))
     if run.finished:
         report(f"{run.folder.path} holds this test already, finished")
         return run.summary["results"]
+    if run.folder is not None and sample.grading is not None:  # for people who read the summary
+        run.folder.writeSummary(grading={"name": type(sample.grading).__name__, **vars(sample.grading)})
     for text in (*warnings, *more):
         run.warn(text)
     if sample.rMax > BOULDER:
