@@ -124,6 +124,10 @@ def test_crackedContactsAreThoseThatTheSegmentCuts():
     for a, b in pairs:
         one, other = O.bodies[a].state.pos, O.bodies[b].state.pos
         assert abs(one[0] - other[0]) < 1e-4 and (one[1] - centre[1]) * (other[1] - centre[1]) < 0
+    # The crack runs through contacts; the pores that it opens lie beside them.
+    assert not sediment.anyInTheVoid([(O.bodies[a].state.pos[0], centre[1]) for a, _ in pairs])
+    beside = toughness.besideContacts(pairs)
+    assert len(beside) == 4 and all(sediment.anyInTheVoid([point]) for point in beside)
 
 
 @pytest.mark.parametrize("values, message", [
