@@ -2,8 +2,9 @@
 
 Samples are made of unbonded disks, which flow where one principal stress is too many times the other (Mohr and
 Coulomb). Measured over ten settled samples of 60 grains for each friction of 0.2, 0.5 and 0.8, stresses 10 kPa over
-the ratio: all bear a ratio of 2, with a side that grows by up to 23 %; 2.5 is borne by 4, 3 and 7 of ten, 3 by 0, 3
-and 3, and 4 by none. Of four samples of 200 grains with friction 0.5 all bear 2, growing by up to 11 %, and none 2.5.
+the ratio: all bear a ratio of 2, with a side that grows by up to 23 %; 2.5 is borne by 5, 3 and 9 of ten, 3 by 0, 3
+and 4, and 4 by none. Of four samples of 200 grains with friction 0.5 all bear 2, growing by up to 11 %, and none 2.5.
+Soft ones, pressed in by a percent, grow more: one of six in the sweep of Hydrate Ridge by 38 % under a ratio of 2.
 A sample that flows ends as a layer or two along the wall of the lesser stress, whose grains then bear any ratio: the
 stresses of the walls alone do not tell.
 """
@@ -18,9 +19,9 @@ LEAST_GRAINS = 3
 UNBEARABLE_RATIO = 4.0
 #: Ratio that all samples bore [-].
 BEARABLE_RATIO = 2.0
-#: By what a side of the box may grow again while it is compressed, over its least length so far [-]; a box of few
-#: grains by a grain, for single ones find another place.
-MOST_GROWTH = 0.25
+#: By what a side of the box may grow again while it is compressed, over its least length so far [-]: the box has half
+#: its height over width then. A box of few grains may grow by a grain, for single ones find another place.
+MOST_GROWTH = 0.4
 #: Constraints per grain that bears a load [-], two of a contact with friction shared by two grains, one of a contact
 #: with a smooth wall. Equilibrium of forces and torque takes 3; what is less has not come to rest.
 LEAST_CONSTRAINTS = 2.9
