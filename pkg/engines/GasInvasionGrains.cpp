@@ -80,10 +80,13 @@ Real GasInvasionEngine::gapGrowth(int e) const
 /// Contacts for which `wanted` holds, as pairs of vertices.
 template <class Wanted> std::vector<capfrac::ContactPair> GasInvasionEngine::contactsThat(Wanted wanted) const
 {
+	std::vector<int> vertex(reader.nBodies, -1);
+	for (std::size_t v = 0; v < reader.grainIds.size() + capfrac::nWalls; ++v)
+		vertex[reader.bodyOf(static_cast<int>(v))] = static_cast<int>(v);
 	std::vector<capfrac::ContactPair> pairs;
 	for (const auto& interaction : *scene->interactions)
 		if (interaction->isReal() && wanted(*interaction))
-			pairs.push_back({ reader.vertexOf(interaction->getId1()), reader.vertexOf(interaction->getId2()) });
+			pairs.push_back({ vertex[interaction->getId1()], vertex[interaction->getId2()] });
 	return pairs;
 }
 
@@ -161,7 +164,12 @@ void GasInvasionEngine::brakeLooseGrains()
 		held[i]          = !forces.move(body) || body.state->blockedDOFs & (State::DOF_X | State::DOF_Y);
 	}
 	const auto loose = capfrac::looseClusters(held, contactsThat(transmits));
-	if (loose.count == 0) return;
+	bool       any   = false;
+	for (std::size_t i = 0; i < reader.grainIds.size() && !any; ++i) {
+		const auto& state = *(*scene->bodies)[reader.grainIds[i]]->state;
+		any               = loose.ofMember[i] >= 0 && (state.vel.squaredNorm() > 0 || state.angVel.squaredNorm() > 0);
+	}
+	if (!any) return;
 	std::vector<Vector3r> resultant(loose.count, Vector3r::Zero());
 	for (std::size_t i = 0; i < reader.grainIds.size(); ++i)
 		if (loose.ofMember[i] >= 0) resultant[loose.ofMember[i]] += forces.on(*(*scene->bodies)[reader.grainIds[i]]);

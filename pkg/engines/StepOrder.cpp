@@ -86,29 +86,35 @@ namespace {
 		return !(asking == forces && engine == loop); // forces add up in any order
 	}
 
-	void checkNumber(const Engine& asking, const std::vector<const Engine*>& live, Kind kind)
+	struct Placed {
+		const Engine* engine;
+		Kind          kind;
+	};
+
+	void checkNumber(const Engine& asking, const std::vector<Placed>& live, Kind kind)
 	{
 		std::string names;
 		int         number = 0;
-		for (const auto* engine : live)
-			if (kindOf(*engine) == kind) names += (number++ ? ", " : "") + engine->getClassName();
+		for (const auto& placed : live)
+			if (placed.kind == kind) names += (number++ ? ", " : "") + placed.engine->getClassName();
 		if (number < 2) return;
 		refuse(asking,
 		       "meets " + std::to_string(number) + " engines where one is allowed (" + names
 		               + "); take one out of O.engines or set its dead = True");
 	}
 
-	bool holds(const std::vector<const Engine*>& engines, Kind kind)
+	bool holds(const std::vector<Placed>& live, Kind kind)
 	{
-		return std::any_of(engines.begin(), engines.end(), [kind](const Engine* engine) { return kindOf(*engine) == kind; });
+		return std::any_of(live.begin(), live.end(), [kind](const Placed& placed) { return placed.kind == kind; });
 	}
 
-	void checkIntegrator(const Scene& scene, const Engine& asking, const std::vector<const Engine*>& live)
+	void checkIntegrator(const Scene& scene, const Engine& asking, const std::vector<Placed>& live)
 	{
+		if (holds(live, integrator) || !holds(live, loop)) return;
 		const auto isIntegrator = [](const auto& engine) { return isOne<NewtonIntegrator>(*engine); };
 		// A dead integrator is a choice; none at all, with contacts that press, is an oversight.
-		const bool none = std::none_of(scene.engines.begin(), scene.engines.end(), isIntegrator);
-		if (none && holds(live, loop)) refuse(asking, "meets contacts, but no NewtonIntegrator: nothing would ever move");
+		if (std::none_of(scene.engines.begin(), scene.engines.end(), isIntegrator))
+			refuse(asking, "meets contacts, but no NewtonIntegrator: nothing would ever move");
 	}
 
 } // namespace
@@ -130,26 +136,29 @@ const NewtonIntegrator* integratorOf(const Scene& scene)
 
 void checkStepOrder(const Scene& scene, const Engine& asking)
 {
-	const auto live  = liveEngines(scene);
-	const auto place = std::find(live.begin(), live.end(), &asking);
+	std::vector<Placed> live;
+	for (const auto* engine : liveEngines(scene))
+		live.push_back({ engine, kindOf(*engine) });
+	const auto place = std::find_if(live.begin(), live.end(), [&](const Placed& placed) { return placed.engine == &asking; });
 	if (place == live.end()) return;
 	const auto listed = [&asking](const auto& engine) { return engine.get() == &asking; };
 	if (std::none_of(scene.engines.begin(), scene.engines.end(), listed))
 		refuse(asking,
 		       "stands within a ParallelEngine, beside engines whose forces it needs; it has to stand in O.engines itself");
-	const Kind kind = kindOf(asking);
+	const Kind kind = place->kind;
 	if (kind != forces) checkNumber(asking, live, kind);
 	checkIntegrator(scene, asking, live);
-	if (!integratorOf(scene)) return; // nothing moves, whatever the order
+	if (!holds(live, integrator)) return; // nothing moves, whatever the order
 	for (Kind single : { loop, integrator })
 		checkNumber(asking, live, single);
 	if (!holds(live, resetter)) refuse(asking, "meets no ForceResetter: the forces of all steps would add up");
-	for (auto engine = live.begin(); engine != live.end(); ++engine) {
-		const Kind its = kindOf(**engine);
-		if (engine == place || !matters(kind, its)) continue;
-		const std::string name = (*engine)->getClassName();
-		if (its < kind && engine > place) refuse(asking, "stands before " + name + ": " + harmBefore(kind, its));
-		if (its > kind && engine < place) refuse(asking, "stands after " + name + ": " + harmAfter(its));
+	for (auto other = live.begin(); other != live.end(); ++other) {
+		if (other == place || !matters(kind, other->kind)) continue;
+		const Kind its = other->kind;
+		if (its < kind && other > place)
+			refuse(asking, "stands before " + other->engine->getClassName() + ": " + harmBefore(kind, its));
+		if (its > kind && other < place)
+			refuse(asking, "stands after " + other->engine->getClassName() + ": " + harmAfter(its));
 	}
 }
 
