@@ -70,12 +70,15 @@ def check(figure, panelsWithoutLegend=()):
     for axes in figure.axes:
         assert holdsSomething(axes), f"empty panel: {axes.get_title() or axes.get_ylabel() or axes.get_position()}"
     legends = figure.findobj(matplotlib.legend.Legend)
-    keys = {_look(key) for legend in legends for key in legend.findobj(matplotlib.lines.Line2D)}
+    # A legend may name colours and kinds of lines one by one, for all their combinations.
+    keys = [_look(key) for legend in legends for key in legend.findobj(matplotlib.lines.Line2D)]
+    colours, kinds = ({key[k] for key in keys} for k in (0, 1))
     for axes in figure.axes:
         if axes.axison and axes not in panelsWithoutLegend:
             for line in axes.lines:
                 if np.isfinite(np.asarray(line.get_ydata(), dtype=float)).any():
-                    assert _look(line) in keys, f"a line without a name in {axes.get_ylabel()!r}: {line.get_label()}"
+                    colour, kind = _look(line)
+                    assert colour in colours and kind in kinds, f"a line without a name in {axes.get_ylabel()!r}: {line.get_label()}"
 
 
 def _look(line):

@@ -1,5 +1,7 @@
 """Pictures of runs of every kind: what is in them, and that they can be read (see :mod:`figurechecks`)."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
@@ -7,6 +9,7 @@ from matplotlib.colors import to_rgba
 from capfrac import curve, cycles, figures, fracture, history
 from capfrac.errors import CaseError
 from capfrac.fracture import figures as fractures
+from capfrac.sweep import depth_figures, regime_figures, regime_map
 from figurechecks import Drawn, check
 from test_fracture import EAST, NORTH, START, arm, board, cracks
 from test_outputs import makeSnapshot
@@ -295,3 +298,18 @@ def test_loopsOfACycleHaveTheirNames(drawn, tmp_path):
     check(drawn.last, panelsWithoutLegend=drawn.last.axes[1:])
     colours = {line.get_label(): to_rgba(line.get_color()) for line in drawn.last.axes[0].lines}
     assert colours["trapped, on imbibition"] == colours["imbibition"]
+
+
+# --- sweeps --------------------------------------------------------------------------------------
+
+#: Tables that the manual's figures were drawn from.
+DATA = Path(__file__).parents[2] / "doc" / "data"
+
+
+def test_figuresOfSweeps(drawn, tmp_path):
+    rows = regime_map.read(DATA / "regime_map.csv")
+    for draw in (regime_figures.drawRegimeMap, regime_figures.drawCollapse):
+        draw(rows, tmp_path / "map.png")
+        check(drawn.last)
+    depth_figures.drawDepth(depth_figures.read(DATA / "hydrate_ridge_depth_runs.csv"), tmp_path / "depth.png")
+    check(drawn.last)

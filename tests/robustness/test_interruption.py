@@ -30,7 +30,7 @@ def uninterrupted(command, tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 def test_interruptedRunIsTakenUpAndEndsTheSame(command, uninterrupted, tmp_path, how):
     folder = tmp_path / "run"
     process = command("inject", *SMALL, "-q", "-o", folder)
@@ -38,11 +38,12 @@ def test_interruptedRunIsTakenUpAndEndsTheSame(command, uninterrupted, tmp_path,
     time.sleep(0.3)  # somewhere in the ramp; where does not matter for what follows
     process.send_signal(how)
     _, errors = process.communicate(timeout=60)
-    assert process.returncode == (130 if how == signal.SIGINT else -9), errors
+    stopped = how != signal.SIGKILL
+    assert process.returncode == (130 if stopped else -9), errors
     summary = summaryOf(folder)
-    assert summary["state"] == ("interrupted" if how == signal.SIGINT else "running")
+    assert summary["state"] == ("interrupted" if stopped else "running")
     assert (folder / "events.csv").exists() and (folder / "pc_saturation.csv").exists()
-    if how == signal.SIGINT:
+    if stopped:
         assert f"the same command takes the run up again from {folder}" in errors
         assert not [path for path in folder.rglob(".*")]
     status, output, errors = run(command, "inject", *SMALL, "-o", folder)

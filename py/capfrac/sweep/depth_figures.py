@@ -72,7 +72,8 @@ def _key(figure, rows):
     entries += [Line2D([], [], color="#0072b2", label="capillary threshold $2\\gamma/r_{throat}$"), Patch(color=_THEORY, alpha=0.65, label="its range"),
                 Line2D([], [], color="#a0522d", label="$\\sigma'_H$"), Patch(color=_STRESS, alpha=0.65, label="its range"),
                 Line2D([], [], color="#a0522d", linestyle=(0, (5, 2)), label="fracture pressure with cohesion"),
-                Line2D([], [], color="0.3", label="theory, best guess"), Patch(color="0.87", label="range of the theory")]
+                Line2D([], [], color="0.3", label="theory, best guess"), Patch(color="0.87", label="range of the theory"),
+                Line2D([], [], color="black", linewidth=0.9, linestyle=(0, (2, 2)), label="threshold = $\\sigma'_H$")]
     figure.legend(handles=entries, loc="lower center", ncol=4, frameon=False, fontsize=8, columnspacing=1.4)
 
 
