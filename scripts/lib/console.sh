@@ -12,9 +12,13 @@ make_cache() {
 }
 
 # Ctrl-C and TERM: what runs is stopped, too, and one sentence says how to go on. Exit status 130, as that of capfrac.
-attended_process=''
+attended_process='' starting='' signal_while_starting=''
 interrupted() {
 	local signal=$1
+	if [[ -n $starting ]]; then # answered as soon as it is known what has to be stopped
+		signal_while_starting=$signal
+		return
+	fi
 	trap '' INT TERM
 	if [[ -n $attended_process ]]; then
 		# Ctrl-C in a terminal has reached it already; a second one would disturb what it saves.
@@ -39,8 +43,11 @@ trap 'interrupted TERM' TERM
 # attended COMMAND...: runs a program so that a signal is answered at once, not when the program has ended.
 attended() {
 	local status=0
+	starting=yes
 	env --default-signal=INT "$@" <&0 & # the shell has what runs in the background ignore Ctrl-C
 	attended_process=$!
+	starting=''
+	[[ -z $signal_while_starting ]] || interrupted "$signal_while_starting"
 	wait "$attended_process" || status=$?
 	attended_process=''
 	return $status

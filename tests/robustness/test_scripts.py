@@ -76,6 +76,17 @@ def test_stoppedBuildIsNoFailedBuild(tmp_path, how):
     assert (tmp_path / "log").read_text() == before  # nothing is left that would still build
 
 
+#: Ctrl-C just between the start of a program and the shell's note of what it started.
+AT_THE_START = r"trap '[[ $BASH_COMMAND != attended_process=\$! ]] || kill -INT $$' DEBUG"
+
+
+def test_signalAtTheStartStopsWhatWasStarted():
+    script = f". {SCRIPTS}/lib/console.sh; set -T; {AT_THE_START}; attended sleep 47; echo went on"
+    done = subprocess.run(["bash", "-c", script, "scripts/try"], capture_output=True, text=True, timeout=30)
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr == "capfrac: note: interrupted; the same command (scripts/try) goes on where it stopped\n"
+
+
 def test_buildSaysWhyItFailed(tmp_path):
     process = logged(tmp_path, "print('[1/2] fine'); raise SystemExit('no such header')")
     output, errors = process.communicate(timeout=30)
