@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// Checks of attributes, with one form of message: Class.attribute = value [unit], allowed: what.
@@ -12,7 +13,8 @@
 
 namespace capfrac {
 
-template <class Value> [[noreturn]] void refuseAttribute(const std::string& name, const Value& value, const std::string& allowed)
+template <class Value>
+[[noreturn]] void refuseAttribute(const std::string& name, const Value& value, const std::string& allowed)
 {
 	std::ostringstream text;
 	text.precision(10);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// How the gas of GasInvasionEngine advances: the throats it meets, the pores it enters.
 
 #include "GasInvasionEngine.hpp"
@@ -11,7 +12,7 @@ namespace yade {
 std::pair<Real, Real> GasInvasionEngine::throatShape(int e) const
 {
 	const auto& edge = mesh.edges[e];
-	const auto& a    = reader.grains[edge.a];
+	const auto& a = reader.grains[edge.a];
 	// A wall mirrors: the throat between a grain and a wall is half of that between the grain and its image.
 	const bool wall = mesh.isWall(edge.b);
 	return { wall ? 2 * gaps[e] : gaps[e], wall ? a.radius : 0.5 * (a.radius + reader.grains[edge.b].radius) };
@@ -19,14 +20,14 @@ std::pair<Real, Real> GasInvasionEngine::throatShape(int e) const
 
 Real GasInvasionEngine::throatEntryPressure(int e) const
 {
-	const auto& edge   = mesh.edges[e];
+	const auto& edge = mesh.edges[e];
 	const auto [gap, r] = throatShape(e);
 	try {
 		return capfrac::entryPressure(law, gap, r, interfacialTension, contactAngle);
 	} catch (const capfrac::EntryLawError& error) {
-		throw std::runtime_error(
-		        getClassName() + " " + whenInLoop(*scene) + "throat between bodies #" + std::to_string(reader.bodyOf(edge.a)) + " and #"
-		        + std::to_string(reader.bodyOf(edge.b)) + ": " + error.what());
+		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + "throat between bodies #"
+		        + std::to_string(reader.bodyOf(edge.a)) + " and #" + std::to_string(reader.bodyOf(edge.b))
+		        + ": " + error.what());
 	}
 }
 
@@ -37,7 +38,8 @@ bool GasInvasionEngine::gasCanAdvance() const
 	for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
 		const auto& edge = mesh.edges[e];
 		if (edge.left < 0 || edge.right < 0) continue;
-		if (contents.phase[edge.left] == contents.phase[edge.right] && !snappedOff(static_cast<int>(e))) continue;
+		if (contents.phase[edge.left] == contents.phase[edge.right] && !snappedOff(static_cast<int>(e)))
+			continue;
 		if (entryPressureAtDatum(static_cast<int>(e)) <= capillaryPressure()) return true;
 	}
 	return false;
@@ -64,10 +66,12 @@ capfrac::DrainageNetwork GasInvasionEngine::drainageNetwork() const
 		if (edge.left < 0 || edge.right < 0) continue;
 		const int left = domains.ofCell[edge.left], right = domains.ofCell[edge.right];
 		if (left == right) continue;
-		const auto middle = 0.5 * (capfrac::cellCentre(mesh, edge.left, reader.grains, reader.box)
-		                           + capfrac::cellCentre(mesh, edge.right, reader.grains, reader.box));
+		const auto middle = 0.5
+		        * (capfrac::cellCentre(mesh, edge.left, reader.grains, reader.box)
+		                + capfrac::cellCentre(mesh, edge.right, reader.grains, reader.box));
 		const int number = static_cast<int>(e);
-		network.throats.push_back({ number, left, right, entryPressureAtDatum(number), middle, snappedOff(number) });
+		network.throats.push_back(
+		        { number, left, right, entryPressureAtDatum(number), middle, snappedOff(number) });
 	}
 	network.injected = capfrac::connectedGas(network, seed);
 	return network;
@@ -101,14 +105,16 @@ bool GasInvasionEngine::mayInvade() const
 void GasInvasionEngine::avalanche()
 {
 	syncContents();
-	const auto network  = drainageNetwork();
-	const auto drainage = capfrac::drain(network, capillaryPressure(), trapping, invasionInterval > 0 || pressureFollows() ? 1 : std::numeric_limits<int>::max());
-	nTrappedWater       = static_cast<int>(drainage.trapped.size());
+	const auto network = drainageNetwork();
+	const auto drainage = capfrac::drain(network, capillaryPressure(), trapping,
+	        invasionInterval > 0 || pressureFollows() ? 1 : std::numeric_limits<int>::max());
+	nTrappedWater = static_cast<int>(drainage.trapped.size());
 	countDetachedGas(network);
 	if (checkInvariants) checkInvariantsNow(network, drainage);
 	if (drainage.steps.empty()) return;
 	for (const auto& step : drainage.steps)
-		if (step.domain >= 0) record(network.throats[step.throat].edge, step.domain);
+		if (step.domain >= 0)
+			record(network.throats[step.throat].edge, step.domain);
 		else
 			reopen(network.throats[step.throat].edge);
 	for (const auto& step : drainage.steps)
@@ -139,14 +145,14 @@ void GasInvasionEngine::fillWithGas(int domain)
 
 void GasInvasionEngine::record(int e, int domain)
 {
-	const auto& edge   = mesh.edges[e];
-	const int   first  = domains.first[domain];
-	const auto  ids    = std::make_pair(reader.bodyOf(edge.a), reader.bodyOf(edge.b));
-	const bool  broken = bondBroken(ids.first, ids.second);
-	const Real  growth = gapGrowth(e);
-	const Real  r      = throatShape(e).second;
-	Real        volume = 0;
-	int         cells  = 0;
+	const auto& edge = mesh.edges[e];
+	const int first = domains.first[domain];
+	const auto ids = std::make_pair(reader.bodyOf(edge.a), reader.bodyOf(edge.b));
+	const bool broken = bondBroken(ids.first, ids.second);
+	const Real growth = gapGrowth(e);
+	const Real r = throatShape(e).second;
+	Real volume = 0;
+	int cells = 0;
 	capfrac::Vec2 place;
 	for (int c : domains.cellsOf(domain)) {
 		volume += thickness * contents.water[c];
@@ -155,7 +161,8 @@ void GasInvasionEngine::record(int e, int domain)
 	}
 	const auto& v = mesh.cells[first].vertex;
 	eventBodies.push_back(Vector3i(reader.bodyOf(v[0]), reader.bodyOf(v[1]), reader.bodyOf(v[2])));
-	eventThroats.push_back(Vector3i(ids.first, ids.second, (broken ? 1 : 0) | (broken || growth > openingThreshold * r ? 2 : 0)));
+	eventThroats.push_back(
+	        Vector3i(ids.first, ids.second, (broken ? 1 : 0) | (broken || growth > openingThreshold * r ? 2 : 0)));
 	eventCounts.push_back(Vector3i(static_cast<int>(scene->iter), level, cells));
 	Vector6r numbers;
 	numbers << scene->time, gasPressure, throatEntryPressure(e), gaps[e], growth, volume;
@@ -177,10 +184,11 @@ void GasInvasionEngine::noteBreakthrough()
 	if (breakthroughIter >= 0) return;
 	const auto outlets = wallsFromName("outletWall", outletWall);
 	for (int d = 0; d < domains.count; ++d)
-		if (contents.phase[domains.first[d]] == capfrac::Phase::gas && std::any_of(outlets.begin(), outlets.end(), [&](int wall) { return touches(d, wall); })) {
+		if (contents.phase[domains.first[d]] == capfrac::Phase::gas
+		        && std::any_of(outlets.begin(), outlets.end(), [&](int wall) { return touches(d, wall); })) {
 			breakthroughPressure = gasPressure;
-			breakthroughIter     = static_cast<int>(scene->iter);
-			breakthroughBroken   = countBroken();
+			breakthroughIter = static_cast<int>(scene->iter);
+			breakthroughBroken = countBroken();
 			breakthroughDisplacements = displacements();
 			breakthroughRattlers = rattlersNow();
 			breakthroughDisplacement = largestLoaded(breakthroughDisplacements, breakthroughRattlers);
@@ -188,25 +196,32 @@ void GasInvasionEngine::noteBreakthrough()
 		}
 }
 
-void GasInvasionEngine::checkInvariantsNow(const capfrac::DrainageNetwork& network, const capfrac::Drainage& drainage) const
+void GasInvasionEngine::checkInvariantsNow(
+        const capfrac::DrainageNetwork& network, const capfrac::Drainage& drainage) const
 {
-	auto fail = [&](const std::string& what) { throw std::logic_error(getClassName() + " " + whenInLoop(*scene) + "invariant violated: " + what); };
+	auto fail = [&](const std::string& what) {
+		throw std::logic_error(getClassName() + " " + whenInLoop(*scene) + "invariant violated: " + what);
+	};
 	auto after = network;
 	for (const auto& step : drainage.steps) {
 		const auto& throat = network.throats[step.throat];
-		const int   from   = throat.left == step.domain ? throat.right : throat.left;
+		const int from = throat.left == step.domain ? throat.right : throat.left;
 		if (step.domain < 0) {
 			after.throats[step.throat].snapped = false;
 			continue;
 		}
 		if (throat.entryPressure > capillaryPressure()) fail("a throat opened below its entry pressure");
-		if (!after.injected[from]) after.injected = capfrac::connectedGas(after, after.injected); // gas that was met
+		if (!after.injected[from])
+			after.injected = capfrac::connectedGas(after, after.injected); // gas that was met
 		if (!after.injected[from]) fail("gas advanced from a pore that does not hang on the inlet");
 		if (after.gas[step.domain]) fail("a pore was invaded twice");
 		after.gas[step.domain] = after.injected[step.domain] = 1;
 	}
-	if (!trapping && invasionInterval == 0 && !pressureFollows() && capfrac::nextEntryPressure(after) <= capillaryPressure()) fail("the avalanche stopped before its end");
-	const Real books = math::abs(thickness * contents.totalGas() - gasIn) + math::abs(thickness * contents.totalWater() - initialWater - waterIn);
+	if (!trapping && invasionInterval == 0 && !pressureFollows()
+	        && capfrac::nextEntryPressure(after) <= capillaryPressure())
+		fail("the avalanche stopped before its end");
+	const Real books = math::abs(thickness * contents.totalGas() - gasIn)
+	        + math::abs(thickness * contents.totalWater() - initialWater - waterIn);
 	if (books > 1e-10 * initialVoid) fail("gas and water do not add up to what entered and left");
 }
 

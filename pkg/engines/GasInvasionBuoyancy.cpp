@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Pressures of GasInvasionEngine, place by place: columns of gas and of water at rest.
 
 #include "GasInvasionEngine.hpp"
@@ -8,7 +9,10 @@
 
 namespace yade {
 
-bool GasInvasionEngine::heavy() const { return (fluidDensity > 0 || gasDensity > 0) && (gravity[0] != 0 || gravity[1] != 0); }
+bool GasInvasionEngine::heavy() const
+{
+	return (fluidDensity > 0 || gasDensity > 0) && (gravity[0] != 0 || gravity[1] != 0);
+}
 
 capfrac::Vec2 GasInvasionEngine::datum() const
 {
@@ -43,7 +47,7 @@ Real GasInvasionEngine::head(capfrac::Vec2 place) const
 capfrac::Vec2 GasInvasionEngine::throatPlace(int e) const
 {
 	const auto& edge = mesh.edges[e];
-	const auto& a    = reader.grains[edge.a];
+	const auto& a = reader.grains[edge.a];
 	if (mesh.isWall(edge.b)) return reader.box.foot(mesh.wallOf(edge.b), a.centre);
 	const auto& b = reader.grains[edge.b];
 	return a.centre + (a.radius + 0.5 * gaps[e]) / capfrac::norm(b.centre - a.centre) * (b.centre - a.centre);
@@ -61,7 +65,8 @@ std::vector<double> GasInvasionEngine::pressuresAtDatum() const
 {
 	std::vector<double> pressure(mesh.cells.size());
 	for (std::size_t c = 0; c < pressure.size(); ++c)
-		pressure[c] = contents.phase[c] == capfrac::Phase::gas ? pressureOfGas(static_cast<int>(c)) : waterPressure;
+		pressure[c] =
+		        contents.phase[c] == capfrac::Phase::gas ? pressureOfGas(static_cast<int>(c)) : waterPressure;
 	if (!trapping || filmConductance <= 0) return pressure;
 	const auto network = drainageNetwork();
 	for (const auto& cluster : capfrac::trappedClusters(network)) {
@@ -99,15 +104,15 @@ std::vector<double> GasInvasionEngine::cellPressures() const
 	return pressure;
 }
 
-/// A fluid at rest has the pressure p + w.(x - datum) = (p - w.datum) + w.x: the forces of a pressure per cell, and those of the weights
-/// (geometry/FluidWeight).
+/// A fluid at rest has the pressure p + w.(x - datum) = (p - w.datum) + w.x: the forces of a pressure per cell, and
+/// those of the weights (geometry/FluidWeight).
 capfrac::FluidForces GasInvasionEngine::forcesOfFluids() const
 {
 	if (!drained()) return SinglePhaseFlowEngine::forcesOfFluids();
 	if (!heavy()) return PoreNetworkEngine::forcesOfFluids();
-	auto                       pressure = pressuresAtDatum();
+	auto pressure = pressuresAtDatum();
 	std::vector<capfrac::Vec2> weight(pressure.size());
-	const capfrac::Vec2        toDatum = datum() - capfrac::Vec2 { reader.box.left, reader.box.bottom };
+	const capfrac::Vec2 toDatum = datum() - capfrac::Vec2 { reader.box.left, reader.box.bottom };
 	for (std::size_t c = 0; c < pressure.size(); ++c) {
 		weight[c] = weightOf(static_cast<int>(c));
 		pressure[c] -= capfrac::dot(weight[c], toDatum);
@@ -119,8 +124,8 @@ capfrac::FluidForces GasInvasionEngine::forcesOfFluids() const
 
 // --- solved water -----------------------------------------------------------------------------------
 
-/// Fills the cells of water under the pressure at rest. By their first moments, in which pressure and amount are linear: so a pore of several cells, too, has
-/// exactly the pressure at its centroid.
+/// Fills the cells of water under the pressure at rest. By their first moments, in which pressure and amount are
+/// linear: so a pore of several cells, too, has exactly the pressure at its centroid.
 void GasInvasionEngine::letWaterRest()
 {
 	const capfrac::Vec2 toDatum = datum() - capfrac::Vec2 { reader.box.left, reader.box.bottom };
@@ -137,19 +142,20 @@ void GasInvasionEngine::letWaterRest()
 capfrac::FluidForces GasInvasionEngine::weightOfFluid() const
 {
 	if (drained() || !heavy() || cellState.size() != mesh.cells.size()) return {};
-	const auto          fluids = twoFluids();
-	const auto          pores  = twoFluidPores();
+	const auto fluids = twoFluids();
+	const auto pores = twoFluidPores();
 	const capfrac::Vec2 corner { reader.box.left, reader.box.bottom };
 	std::vector<double> atCentroid(mesh.cells.size());
 	std::vector<capfrac::Vec2> weight(mesh.cells.size());
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const auto& pore = pores[poreOfCell[c]];
 		// From the fluid that does not flow through the pore: the other takes what room the grains leave it.
-		const Real water   = math::min(Real(1), math::max(Real(0), capfrac::waterVolume(fluids, pore.water, pore.pressure) / pore.volume));
-		const Real share   = pore.isGas ? 1 - water : capfrac::gasShare(fluids, pore);
+		const Real water = math::min(Real(1),
+		        math::max(Real(0), capfrac::waterVolume(fluids, pore.water, pore.pressure) / pore.volume));
+		const Real share = pore.isGas ? 1 - water : capfrac::gasShare(fluids, pore);
 		const Real density = share * gasDensity + (1 - share) * fluidDensity;
-		weight[c]          = { density * gravity[0], density * gravity[1] };
-		atCentroid[c]      = -capfrac::dot(weight[c], poreCentre[poreOfCell[c]] - corner);
+		weight[c] = { density * gravity[0], density * gravity[1] };
+		atCentroid[c] = -capfrac::dot(weight[c], poreCentre[poreOfCell[c]] - corner);
 	}
 	auto forces = capfrac::fluidForces(gradients, atCentroid, reader.grains.size());
 	forces += capfrac::weightForces(mesh, reader.grains, reader.box, weight);

@@ -1,4 +1,6 @@
-/// What GasInvasionEngine knows of the grains: bonds, who bears load, displacements, rest; and how loose grains come to rest.
+// SPDX-License-Identifier: GPL-2.0-or-later
+/// What GasInvasionEngine knows of the grains: bonds, who bears load, displacements, rest; and how loose grains come to
+/// rest.
 
 #include "GasInvasionEngine.hpp"
 #include "StepOrder.hpp"
@@ -19,8 +21,8 @@ namespace {
 	/// than that floats as soon as gas is on one side of it, even where the sample as a whole is rigid: in the
 	/// paper's coarse case the gas pushes a grain with about a hundredth of the mean contact force.
 	constexpr Real loadedShare = 0.01;
-	/// Resultant on a cluster of grains, over the mean contact force, below which nothing drives it [-]: sums of pressures
-	/// round a grain cancel to round-off, which is far below, and the weight of a grain is far above.
+	/// Resultant on a cluster of grains, over the mean contact force, below which nothing drives it [-]: sums of
+	/// pressures round a grain cancel to round-off, which is far below, and the weight of a grain is far above.
 	constexpr Real noForce = 1e-9;
 
 	Real normalForce(const Interaction& interaction)
@@ -39,13 +41,16 @@ namespace {
 	Real meanNormalForce(const Scene& scene)
 	{
 		Real sum = 0;
-		int  n   = 0;
+		int n = 0;
 		for (const auto& interaction : *scene.interactions)
 			if (interaction->isReal()) sum += normalForce(*interaction), ++n;
 		return n > 0 ? sum / n : 0;
 	}
 
-	bool isAmong(const std::vector<int>& ascending, Body::id_t id) { return std::binary_search(ascending.begin(), ascending.end(), id); }
+	bool isAmong(const std::vector<int>& ascending, Body::id_t id)
+	{
+		return std::binary_search(ascending.begin(), ascending.end(), id);
+	}
 
 } // namespace
 
@@ -53,7 +58,8 @@ bool GasInvasionEngine::bondBroken(Body::id_t a, Body::id_t b) const
 {
 	bool bonded = false;
 	for (std::size_t k = 0; k + 1 < savedBonds.size() && !bonded; k += 2)
-		bonded = (savedBonds[k] == a && savedBonds[k + 1] == b) || (savedBonds[k] == b && savedBonds[k + 1] == a);
+		bonded = (savedBonds[k] == a && savedBonds[k + 1] == b)
+		        || (savedBonds[k] == b && savedBonds[k + 1] == a);
 	if (!bonded) return false;
 	const auto interaction = scene->interactions->find(a, b);
 	if (!interaction || !interaction->isReal()) return true;
@@ -93,10 +99,10 @@ template <class Wanted> std::vector<capfrac::ContactPair> GasInvasionEngine::con
 /// Grains that bear no load as the contacts are now [ids], ascending.
 std::vector<int> GasInvasionEngine::rattlersNow() const
 {
-	const Real least  = loadedShare * meanNormalForce(*scene);
+	const Real least = loadedShare * meanNormalForce(*scene);
 	const auto loaded = contactsThat([least](const Interaction& contact) { return normalForce(contact) > least; });
-	const int  n      = static_cast<int>(reader.grainIds.size());
-	const auto bears  = capfrac::loadBearing(n, n + capfrac::nWalls, loaded);
+	const int n = static_cast<int>(reader.grainIds.size());
+	const auto bears = capfrac::loadBearing(n, n + capfrac::nWalls, loaded);
 	std::vector<int> found;
 	for (int i = 0; i < n; ++i)
 		if (!bears[i]) found.push_back(reader.grainIds[i]);
@@ -117,7 +123,8 @@ Real GasInvasionEngine::largestLoaded(const std::vector<Real>& moved, const std:
 {
 	Real largest = 0;
 	for (std::size_t i = 0; i < moved.size(); ++i)
-		if (!isAmong(rattlers, reader.grainIds[i]) && !isAmong(free, reader.grainIds[i])) largest = math::max(largest, moved[i]);
+		if (!isAmong(rattlers, reader.grainIds[i]) && !isAmong(free, reader.grainIds[i]))
+			largest = math::max(largest, moved[i]);
 	return largest;
 }
 
@@ -127,8 +134,8 @@ Real GasInvasionEngine::largestLoaded(const std::vector<Real>& moved, const std:
 Real GasInvasionEngine::unbalanced() const
 {
 	const DrivingForces forces(*scene, *this);
-	Real                resultant = 0;
-	int                 nMoving   = 0;
+	Real resultant = 0;
+	int nMoving = 0;
 	for (auto id : reader.grainIds) {
 		const auto& body = *(*scene->bodies)[id];
 		if (!forces.move(body)) continue;
@@ -148,31 +155,32 @@ bool GasInvasionEngine::wallsAtRest() const
 	return true;
 }
 
-/// The integrator damps a grain by a share of the force on it. One that lost its contacts, in a pore of one fluid, feels no
-/// force: it would keep its speed for ever, though it is in a viscous fluid. It loses it here, and so do clusters of grains
-/// that hang together but on nothing else, as fast as the damping d makes a grain lose it that swings on a contact with the
-/// period T: by 2d/T. What a force drives (gas on one side, weight) is left to the integrator, and so is what the user
-/// holds, moves or does not want damped.
+/// The integrator damps a grain by a share of the force on it. One that lost its contacts, in a pore of one fluid,
+/// feels no force: it would keep its speed for ever, though it is in a viscous fluid. It loses it here, and so do
+/// clusters of grains that hang together but on nothing else, as fast as the damping d makes a grain lose it that
+/// swings on a contact with the period T: by 2d/T. What a force drives (gas on one side, weight) is left to the
+/// integrator, and so is what the user holds, moves or does not want damped.
 void GasInvasionEngine::brakeLooseGrains()
 {
 	const auto* newton = integratorOf(*scene);
 	if (!newton || newton->damping <= 0) return;
-	const DrivingForces       forces(*scene, *this);
+	const DrivingForces forces(*scene, *this);
 	std::vector<std::uint8_t> held(reader.grainIds.size() + capfrac::nWalls, 1);
 	for (std::size_t i = 0; i < reader.grainIds.size(); ++i) {
 		const auto& body = *(*scene->bodies)[reader.grainIds[i]];
-		held[i]          = !forces.move(body) || body.state->blockedDOFs & (State::DOF_X | State::DOF_Y);
+		held[i] = !forces.move(body) || body.state->blockedDOFs & (State::DOF_X | State::DOF_Y);
 	}
 	const auto loose = capfrac::looseClusters(held, contactsThat(transmits));
-	bool       any   = false;
+	bool any = false;
 	for (std::size_t i = 0; i < reader.grainIds.size() && !any; ++i) {
 		const auto& state = *(*scene->bodies)[reader.grainIds[i]]->state;
-		any               = loose.ofMember[i] >= 0 && (state.vel.squaredNorm() > 0 || state.angVel.squaredNorm() > 0);
+		any = loose.ofMember[i] >= 0 && (state.vel.squaredNorm() > 0 || state.angVel.squaredNorm() > 0);
 	}
 	if (!any) return;
 	std::vector<Vector3r> resultant(loose.count, Vector3r::Zero());
 	for (std::size_t i = 0; i < reader.grainIds.size(); ++i)
-		if (loose.ofMember[i] >= 0) resultant[loose.ofMember[i]] += forces.on(*(*scene->bodies)[reader.grainIds[i]]);
+		if (loose.ofMember[i] >= 0)
+			resultant[loose.ofMember[i]] += forces.on(*(*scene->bodies)[reader.grainIds[i]]);
 	const Real period = periodOfGrains(), least = noForce * meanNormalForce(*scene);
 	if (period <= 0) return;
 	const Real rate = 2 * newton->damping / period;
@@ -199,12 +207,13 @@ py::list GasInvasionEngine::pyRattlersNow()
 py::dict GasInvasionEngine::pyDisplacements(bool atBreakthrough)
 {
 	pyPrepare();
-	py::list   ids, moved, atStart, now;
-	const auto all  = atBreakthrough ? breakthroughDisplacements : displacements();
+	py::list ids, moved, atStart, now;
+	const auto all = atBreakthrough ? breakthroughDisplacements : displacements();
 	const auto free = atBreakthrough ? breakthroughRattlers : rattlersNow();
 	for (std::size_t i = 0; i < all.size(); ++i) {
 		const auto id = reader.grainIds[i];
-		ids.append(id), moved.append(all[i]), atStart.append(isAmong(rattlers, id)), now.append(isAmong(free, id));
+		ids.append(id), moved.append(all[i]), atStart.append(isAmong(rattlers, id)),
+		        now.append(isAmong(free, id));
 	}
 	py::dict d;
 	d["ids"] = ids, d["displacement"] = moved, d["rattlerAtStart"] = atStart, d["rattler"] = now;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Pressures of GasInvasionEngine, and when they rise.
 
 #include "GasInvasionEngine.hpp"
@@ -8,7 +9,8 @@ namespace yade {
 
 namespace {
 
-	/// Excess of the water's pressure that still counts as rest, over the capillary pressure [-]: so far a pressure at which gas enters may be off.
+	/// Excess of the water's pressure that still counts as rest, over the capillary pressure [-]: so far a pressure
+	/// at which gas enters may be off.
 	constexpr Real restingExcess = 0.01;
 
 } // namespace
@@ -22,7 +24,8 @@ void GasInvasionEngine::finishStep()
 	const int steps = static_cast<int>(scene->iter) - std::max(levelStart, lastEventIter);
 	if (steps < std::max(minLevelSteps, invasionInterval)) return;
 	// Pressures of a ramp are known to its increment in any case.
-	const bool atRest = waterExcess <= math::max(restingExcess * capillaryPressure(), pressureIncrement) && wallsAtRest() && unbalanced() < unbalancedTolerance;
+	const bool atRest = waterExcess <= math::max(restingExcess * capillaryPressure(), pressureIncrement)
+	        && wallsAtRest() && unbalanced() < unbalancedTolerance;
 	if (!atRest && static_cast<int>(scene->iter) - levelStart < maxLevelSteps) return;
 	closeLevel(atRest);
 }
@@ -33,8 +36,8 @@ void GasInvasionEngine::closeLevel(bool balanced)
 	syncContents();
 	Vector6r numbers;
 	const auto moved = displacements();
-	numbers << gasPressure, gasSaturation, unbalanced(), largestLoaded(moved, rattlersNow()), *std::max_element(moved.begin(), moved.end()),
-	        thickness * contents.totalGas();
+	numbers << gasPressure, gasSaturation, unbalanced(), largestLoaded(moved, rattlersNow()),
+	        *std::max_element(moved.begin(), moved.end()), thickness * contents.totalGas();
 	levelNumbers.push_back(numbers);
 	levelCounts.push_back(Vector3i(static_cast<int>(scene->iter), countBroken(), balanced ? 1 : 0));
 	++level;
@@ -47,13 +50,15 @@ bool GasInvasionEngine::levelDue() const
 {
 	if (control != GasControl::rate) return true;
 	// The pressure moves by itself: a level is what is at rest after it moved by an increment.
-	return pressureIncrement > 0 && (levelNumbers.empty() || math::abs(gasPressure - levelNumbers.back()[0]) >= pressureIncrement);
+	return pressureIncrement > 0
+	        && (levelNumbers.empty() || math::abs(gasPressure - levelNumbers.back()[0]) >= pressureIncrement);
 }
 
 void GasInvasionEngine::nextPressure()
 {
 	if (control == GasControl::rate) return;
-	if (control == GasControl::reservoir) rampDone = true; // at rest, and nothing more to come
+	if (control == GasControl::reservoir)
+		rampDone = true; // at rest, and nothing more to come
 	else if (!pressureProgram.empty())
 		followProgram();
 	else if (pressureIncrement <= 0 || gasPressure >= maxPressure)
@@ -65,10 +70,11 @@ void GasInvasionEngine::nextPressure()
 void GasInvasionEngine::endRamp()
 {
 	rampDone = true;
-	rampEnd  = { gasPressure, maxPressure, pressureIncrement };
+	rampEnd = { gasPressure, maxPressure, pressureIncrement };
 }
 
-/// A ramp whose end was moved up goes on, and so does a held pressure that was changed. Called after loading, too, which changes nothing.
+/// A ramp whose end was moved up goes on, and so does a held pressure that was changed. Called after loading, too,
+/// which changes nothing.
 void GasInvasionEngine::goOnWhereChanged()
 {
 	if (!rampDone || pressureFollows() || !pressureProgram.empty() || gasPressure >= maxPressure) return;
@@ -85,17 +91,19 @@ void GasInvasionEngine::followProgram()
 		return;
 	}
 	const Real target = pressureProgram[programPosition], way = target - gasPressure;
-	gasPressure = math::abs(way) <= pressureIncrement ? target : gasPressure + std::copysign(pressureIncrement, way);
+	gasPressure =
+	        math::abs(way) <= pressureIncrement ? target : gasPressure + std::copysign(pressureIncrement, way);
 }
 
 Real GasInvasionEngine::saturation() const
 {
 	if (!drained()) return gasSaturation; // of the last step
 	const auto voids = currentVoids();
-	Real       gas = 0, all = 0;
+	Real gas = 0, all = 0;
 	for (std::size_t c = 0; c < voids.size(); ++c) {
 		all += voids[c];
-		gas += contents.phase[c] == capfrac::Phase::gas && !contents.held[c] ? voids[c] - contents.water[c] : contents.gas[c];
+		gas += contents.phase[c] == capfrac::Phase::gas && !contents.held[c] ? voids[c] - contents.water[c]
+		                                                                     : contents.gas[c];
 	}
 	return gas / all;
 }

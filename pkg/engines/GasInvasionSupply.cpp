@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The supply of gas of GasInvasionEngine: how much of it there is, and what pressure it has.
 ///
 /// Gas is counted where its law is compressible. Each cell holds a mass of it, so what is cut off takes its gas along
@@ -5,7 +6,7 @@
 
 #include "GasInvasionEngine.hpp"
 
-#include "../fluids/GasBalance.hpp"
+#include "../supply/GasBalance.hpp"
 
 #include <limits>
 
@@ -16,7 +17,8 @@ template <class Work> auto GasInvasionEngine::namingGas(Work work) const
 	try {
 		return work();
 	} catch (const capfrac::GasLawError& error) {
-		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + "gasLaw = '" + gasLaw + "': " + error.what());
+		throw std::runtime_error(
+		        getClassName() + " " + whenInLoop(*scene) + "gasLaw = '" + gasLaw + "': " + error.what());
 	}
 }
 
@@ -29,9 +31,11 @@ void GasInvasionEngine::checkSupply() const
 	requirePositive("gasDeviation [-]", gasDeviation);
 	for (std::size_t k = 0; k < gasTable.size(); ++k)
 		for (int column : { 0, 1 }) {
-			const std::string name = std::string(column ? "density [kg/m³]" : "pressure [Pa]") + " of pair " + std::to_string(k) + " of gasTable";
+			const std::string name = std::string(column ? "density [kg/m³]" : "pressure [Pa]") + " of pair "
+			        + std::to_string(k) + " of gasTable";
 			requirePositive(name, gasTable[k][column]);
-			if (k > 0 && !(gasTable[k][column] > gasTable[k - 1][column])) refuseAttribute(name, gasTable[k][column], "ascending values");
+			if (k > 0 && !(gasTable[k][column] > gasTable[k - 1][column]))
+				refuseAttribute(name, gasTable[k][column], "ascending values");
 		}
 	requireFinite("pressureDatum [Pa]", pressureDatum);
 	if (gasControl != "pressure" && gasControl != "rate" && gasControl != "reservoir")
@@ -45,15 +49,15 @@ void GasInvasionEngine::checkSupply() const
 
 void GasInvasionEngine::guardSupply()
 {
-	acceptedSupply.guard(
-	        std::tie(
-	                gasLaw, gasMolarMass, gasTemperature, gasDeviation, gasTable, pressureDatum, gasControl, pressureProgram, gasRate, reservoirVolume,
-	                historyInterval),
+	acceptedSupply.guard(std::tie(gasLaw, gasMolarMass, gasTemperature, gasDeviation, gasTable, pressureDatum,
+	                             gasControl, pressureProgram, gasRate, reservoirVolume, historyInterval),
 	        [this] { checkSupply(); });
 	gasState = { capfrac::gasLawFromName(gasLaw), gasMolarMass, gasTemperature, gasDeviation, 1, {}, {} };
 	for (const auto& pair : gasTable)
 		gasState.pressures.push_back(pair[0]), gasState.densities.push_back(pair[1]);
-	control = gasControl == "rate" ? GasControl::rate : gasControl == "reservoir" ? GasControl::reservoir : GasControl::pressure;
+	control = gasControl == "rate"      ? GasControl::rate
+	        : gasControl == "reservoir" ? GasControl::reservoir
+	                                    : GasControl::pressure;
 	if (prepared() && gasControl != controlFollowed) rampDone = false; // another control goes on from here
 	if (prepared() && pressureProgram != programFollowed) programPosition = 0, rampDone = false;
 	controlFollowed = gasControl, programFollowed = pressureProgram;
@@ -64,17 +68,23 @@ void GasInvasionEngine::checkSupplyTogether() const
 {
 	using capfrac::refuseAttribute;
 	if (pressureFollows() && !gasCounted())
-		refuseAttribute("gasControl", "'" + gasControl + "'", "'pressure' with gasLaw = 'incompressible': no pressure follows from the amount of a gas that does not yield, in a rigid box it would be infinite; set gasLaw = 'ideal' or 'tabulated'");
+		refuseAttribute("gasControl", "'" + gasControl + "'",
+		        "'pressure' with gasLaw = 'incompressible': no pressure follows from the amount of a gas that "
+		        "does not yield, in a rigid box it would be infinite; set gasLaw = 'ideal' or 'tabulated'");
 	if (control == GasControl::reservoir && !(reservoirVolume > 0))
 		refuseAttribute("reservoirVolume [m³]", reservoirVolume, "> 0 with gasControl = 'reservoir'");
 	if (gasState.law == capfrac::GasLaw::tabulated && gasTable.size() < 2)
 		refuseAttribute("gasTable, pairs", gasTable.size(), "at least two with gasLaw = 'tabulated'");
 	if (gasCounted() && !(waterPressure + pressureDatum > 0))
-		refuseAttribute("pressureDatum [Pa]", pressureDatum, "> -waterPressure: the absolute pressure of the water is positive");
+		refuseAttribute("pressureDatum [Pa]", pressureDatum,
+		        "> -waterPressure: the absolute pressure of the water is positive");
 	if (gasCounted()) namingGas([&] { return densityAt(gasPressure); });
 	if (pressureProgram.empty()) return;
-	if (pressureFollows()) refuseAttribute("pressureProgram, points", pressureProgram.size(), "none with gasControl = '" + gasControl + "'");
-	if (!(pressureIncrement > 0)) refuseAttribute("pressureIncrement [Pa]", pressureIncrement, "> 0 with a pressureProgram");
+	if (pressureFollows())
+		refuseAttribute("pressureProgram, points", pressureProgram.size(),
+		        "none with gasControl = '" + gasControl + "'");
+	if (!(pressureIncrement > 0))
+		refuseAttribute("pressureIncrement [Pa]", pressureIncrement, "> 0 with a pressureProgram");
 	for (Real p : pressureProgram)
 		if (!(p >= waterPressure)) refuseAttribute("pressureProgram [Pa]", p, ">= waterPressure");
 }
@@ -88,7 +98,7 @@ void GasInvasionEngine::settleGas(Real supplied)
 		return;
 	}
 	takeWaterOut();
-	auto       room    = currentVoids();
+	auto room = currentVoids();
 	const auto entered = capfrac::followVoids(contents, room);
 	gasIn += thickness * entered[0];
 	waterIn += thickness * entered[1];
@@ -113,10 +123,10 @@ void GasInvasionEngine::startCount()
 	const Real density = densityAt(gasPressure);
 	for (std::size_t c = 0; c < contents.gas.size(); ++c)
 		contents.gasMass[c] = density * contents.gas[c];
-	reservoirMass   = density * reservoirVolume;
+	reservoirMass = density * reservoirVolume;
 	reservoirFilled = reservoirVolume;
 	initialGasMass = injectedGasMass = gasMassIn();
-	massStarted    = true;
+	massStarted = true;
 }
 
 /// A reservoir of another size comes, or goes, with its gas at the gas pressure.
@@ -131,10 +141,11 @@ void GasInvasionEngine::attachReservoir()
 
 Real GasInvasionEngine::gasMassIn() const { return thickness * contents.totalGasMass() + reservoirMass; }
 
-void GasInvasionEngine::settleConnected(const capfrac::GasClusters& clusters, const std::vector<double>& room, Real supplied)
+void GasInvasionEngine::settleConnected(
+        const capfrac::GasClusters& clusters, const std::vector<double>& room, Real supplied)
 {
 	std::vector<int> cells;
-	Real             inCells = 0, total = 0;
+	Real inCells = 0, total = 0;
 	for (std::size_t c = 0; c < room.size(); ++c)
 		if (clusters.ofCell[c] == 0) {
 			cells.push_back(static_cast<int>(c));
@@ -151,9 +162,10 @@ void GasInvasionEngine::settleConnected(const capfrac::GasClusters& clusters, co
 	}
 	const Real mass = thickness * inCells + reservoirMass + supplied;
 	injectedGasMass += supplied;
-	const auto balance = capfrac::balanceGas(gasState, mass, reservoirVolume, thickness * total, waterPressure + pressureDatum);
-	gasPressure        = math::max(balance.pressure - pressureDatum, waterPressure);
-	inCells            = 0;
+	const auto balance =
+	        capfrac::balanceGas(gasState, mass, reservoirVolume, thickness * total, waterPressure + pressureDatum);
+	gasPressure = math::max(balance.pressure - pressureDatum, waterPressure);
+	inCells = 0;
 	for (int c : cells) {
 		shareOut(c, room[c], balance.share, balance.density);
 		inCells += contents.gasMass[c];
@@ -166,19 +178,25 @@ void GasInvasionEngine::settleCutOff(const capfrac::GasClusters& clusters, const
 	if (clusters.count == 1) return;
 	std::vector<Real> mass(clusters.count, 0), total(clusters.count, 0);
 	for (std::size_t c = 0; c < room.size(); ++c)
-		if (clusters.ofCell[c] > 0) mass[clusters.ofCell[c]] += contents.gasMass[c], total[clusters.ofCell[c]] += room[c];
+		if (clusters.ofCell[c] > 0)
+			mass[clusters.ofCell[c]] += contents.gasMass[c], total[clusters.ofCell[c]] += room[c];
 	std::vector<capfrac::GasBalance> balance(clusters.count);
 	for (int k = 1; k < clusters.count; ++k)
-		// In a torn sample the void of a single cell may be negative; it keeps what it has until the cells regroup.
-		if (mass[k] > 0 && total[k] > 0) balance[k] = capfrac::balanceGas(gasState, thickness * mass[k], 0, thickness * total[k], waterPressure + pressureDatum);
+		// In a torn sample the void of a single cell may be negative; it keeps what it has until the cells
+		// regroup.
+		if (mass[k] > 0 && total[k] > 0)
+			balance[k] = capfrac::balanceGas(
+			        gasState, thickness * mass[k], 0, thickness * total[k], waterPressure + pressureDatum);
 	for (std::size_t c = 0; c < room.size(); ++c) {
 		const int k = clusters.ofCell[c];
-		if (k > 0 && balance[k].density > 0) shareOut(static_cast<int>(c), room[c], balance[k].share, balance[k].density);
+		if (k > 0 && balance[k].density > 0)
+			shareOut(static_cast<int>(c), room[c], balance[k].share, balance[k].density);
 	}
 }
 
 /// Takes the water out again that came back because the gas did not suffice. A pore that was entered counts as full but
-/// for that: a remeshing, which makes a new cell water where there is less gas than water in its part, must not lose it.
+/// for that: a remeshing, which makes a new cell water where there is less gas than water in its part, must not lose
+/// it.
 void GasInvasionEngine::takeWaterOut()
 {
 	for (std::size_t c = 0; c < returnedWater.size(); ++c) {
@@ -206,12 +224,14 @@ std::vector<double> GasInvasionEngine::findCutOffPressures(const capfrac::GasClu
 {
 	std::vector<Real> mass(clusters.count, 0), volume(clusters.count, 0);
 	for (std::size_t c = 0; c < clusters.ofCell.size(); ++c)
-		if (clusters.ofCell[c] > 0) mass[clusters.ofCell[c]] += contents.gasMass[c], volume[clusters.ofCell[c]] += contents.gas[c];
+		if (clusters.ofCell[c] > 0)
+			mass[clusters.ofCell[c]] += contents.gasMass[c], volume[clusters.ofCell[c]] += contents.gas[c];
 	std::vector<double> pressures(clusters.ofCell.size(), std::numeric_limits<double>::quiet_NaN());
 	for (std::size_t c = 0; c < pressures.size(); ++c) {
 		const int k = clusters.ofCell[c];
 		if (k > 0 && mass[k] > 0 && volume[k] > 0)
-			pressures[c] = math::max(capfrac::gasPressure(gasState, mass[k] / volume[k]) - pressureDatum, waterPressure);
+			pressures[c] = math::max(
+			        capfrac::gasPressure(gasState, mass[k] / volume[k]) - pressureDatum, waterPressure);
 	}
 	return pressures;
 }
@@ -236,7 +256,8 @@ void GasInvasionEngine::checkMass() const
 	if (math::abs(gasMassIn() - injectedGasMass) <= 1e-10 * math::abs(injectedGasMass)) return;
 	std::ostringstream text;
 	text.precision(17);
-	text << getClassName() << " " << whenInLoop(*scene) << "invariant violated: " << gasMassIn() << " kg of gas are there, " << injectedGasMass << " kg were injected";
+	text << getClassName() << " " << whenInLoop(*scene) << "invariant violated: " << gasMassIn()
+	     << " kg of gas are there, " << injectedGasMass << " kg were injected";
 	throw std::logic_error(text.str());
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The pores of GasInvasionEngine as a problem of two fluids: phases, throats, boundaries, the reservoir.
 
 #include "GasInvasionEngine.hpp"
@@ -8,7 +9,8 @@ namespace yade {
 
 namespace {
 
-	/// Conductance from the reservoir to a pore of the inlet over that of the widest throat [-]: no obstacle, and well conditioned.
+	/// Conductance from the reservoir to a pore of the inlet over that of the widest throat [-]: no obstacle, and
+	/// well conditioned.
 	constexpr Real inletConductance = 100;
 	/// Negative amounts up to this share of a pore are round-off and go to the books [-].
 	constexpr Real roundOff = 1e-9;
@@ -22,7 +24,8 @@ void GasInvasionEngine::joinPhases()
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
 		asGas[poreOfCell[c]] += contents.phase[c] == capfrac::Phase::gas ? thickness * voids[c] : 0;
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-		contents.phase[c] = asGas[poreOfCell[c]] > 0.5 * poreVolume[poreOfCell[c]] ? capfrac::Phase::gas : capfrac::Phase::water;
+		contents.phase[c] = asGas[poreOfCell[c]] > 0.5 * poreVolume[poreOfCell[c]] ? capfrac::Phase::gas
+		                                                                           : capfrac::Phase::water;
 }
 
 /// Where the menisci of the pores are the least curved: in the widest of their cells.
@@ -31,7 +34,8 @@ std::vector<Real> GasInvasionEngine::bodyPressures() const
 	std::vector<Real> radius(nPores, 0), pressure(nPores, std::numeric_limits<Real>::max());
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		auto& widest = radius[poreOfCell[c]];
-		widest       = math::max(widest, capfrac::poreBody(mesh, static_cast<int>(c), reader.grains, reader.box).radius);
+		widest = math::max(
+		        widest, capfrac::poreBody(mesh, static_cast<int>(c), reader.grains, reader.box).radius);
 	}
 	for (int p = 0; p < nPores; ++p)
 		if (radius[p] > 0) pressure[p] = capfrac::refillPressure(radius[p], interfacialTension, contactAngle);
@@ -50,7 +54,7 @@ std::vector<capfrac::TwoFluidPore> GasInvasionEngine::twoFluidPores() const
 		pore.isGas = contents.phase[c] == capfrac::Phase::gas;
 	}
 	for (int p = 0; p < nPores; ++p) {
-		auto& pore  = pores[p];
+		auto& pore = pores[p];
 		pore.volume = poreVolume[p];
 		pore.pressure /= poreVolume[p];
 		pore.held = pore.isGas || !(pore.gas > 0) ? 0 : pore.held / pore.gas;
@@ -62,30 +66,33 @@ std::vector<capfrac::TwoFluidPore> GasInvasionEngine::twoFluidPores() const
 capfrac::TwoFluidNetwork GasInvasionEngine::twoFluidNetwork()
 {
 	capfrac::TwoFluidNetwork network;
-	network.fluids          = twoFluids();
+	network.fluids = twoFluids();
 	network.filmConductance = filmConductance, network.filmPressure = waterPressure;
-	network.pores           = twoFluidPores();
-	const auto           bodies = bodyPressures();
+	network.pores = twoFluidPores();
+	const auto bodies = bodyPressures();
 	capfrac::FlowNetwork boundaries;
 	boundaries.pores.resize(nPores);
 	addBoundaries(boundaries);
 	for (int p = 0; p < nPores; ++p) {
 		auto& pore = network.pores[p];
-		// Cells of a torn sample may have a negative void, and share of what is there: sums that cancel leave round-off.
+		// Cells of a torn sample may have a negative void, and share of what is there: sums that cancel leave
+		// round-off.
 		for (auto [amount, books] : { std::pair(&pore.gas, &gasIn), std::pair(&pore.water, &waterIn) })
 			if (*amount < 0 && *amount > -roundOff * pore.volume) *books -= std::exchange(*amount, 0);
 		pore.bodyPressure = bodies[p];
 		if (pore.isGas) continue;
 		pore.fixedPressure = boundaries.pores[p].fixedPressure, pore.source = boundaries.pores[p].source;
-		if (pore.fixedPressure) *pore.fixedPressure += pore.head.water; // what is prescribed is the pressure at the datum
+		if (pore.fixedPressure)
+			*pore.fixedPressure += pore.head.water; // what is prescribed is the pressure at the datum
 	}
 	edgeOfThroat.clear();
 	for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
 		const auto flow = throatAt(static_cast<int>(e));
 		if (!flow) continue;
-		capfrac::TwoFluidThroat throat { flow->a, flow->b, flow->conductance * viscosity, throatEntryPressure(static_cast<int>(e)) };
+		capfrac::TwoFluidThroat throat { flow->a, flow->b, flow->conductance * viscosity,
+			throatEntryPressure(static_cast<int>(e)) };
 		throat.advancing = edgeAdvancing[e] != 0;
-		throat.head      = headsAt(throatPlace(static_cast<int>(e)));
+		throat.head = headsAt(throatPlace(static_cast<int>(e)));
 		network.throats.push_back(throat);
 		edgeOfThroat.push_back(static_cast<int>(e));
 	}
@@ -99,11 +106,12 @@ void GasInvasionEngine::addReservoir(capfrac::TwoFluidNetwork& network) const
 	for (const auto& throat : network.throats)
 		widest = math::max(widest, throat.conductance);
 	capfrac::TwoFluidPore reservoir; // at the datum: without heads
-	reservoir.isGas    = true;
-	reservoir.volume   = reservoirSize();
+	reservoir.isGas = true;
+	reservoir.volume = reservoirSize();
 	reservoir.pressure = gasPressure;
-	reservoir.gas      = reservoirMass / densityAt(0);
-	if (control == GasControl::pressure) reservoir.fixedPressure = gasPressure;
+	reservoir.gas = reservoirMass / densityAt(0);
+	if (control == GasControl::pressure)
+		reservoir.fixedPressure = gasPressure;
 	else if (control == GasControl::rate)
 		reservoir.source = gasRate / densityAt(0);
 	network.pores.push_back(reservoir);

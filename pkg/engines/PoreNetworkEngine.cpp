@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "PoreNetworkEngine.hpp"
 #include "Attributes.hpp"
 #include "EngineErrors.hpp"
@@ -30,9 +31,11 @@ void PoreNetworkEngine::action()
 void PoreNetworkEngine::checkAttributes() const
 {
 	using namespace capfrac;
-	if (poreMode != "domain" && poreMode != "triangle") refuseAttribute("poreMode", "'" + poreMode + "'", "'domain', 'triangle'");
+	if (poreMode != "domain" && poreMode != "triangle")
+		refuseAttribute("poreMode", "'" + poreMode + "'", "'domain', 'triangle'");
 	requireNotNegative("mergeTolerance [-]", mergeTolerance);
-	if (!(mergeHysteresis >= 0 && mergeHysteresis <= 1)) refuseAttribute("mergeHysteresis [-]", mergeHysteresis, "0 … 1");
+	if (!(mergeHysteresis >= 0 && mergeHysteresis <= 1))
+		refuseAttribute("mergeHysteresis [-]", mergeHysteresis, "0 … 1");
 	requireNotNegative("remeshDisplacement [-]", remeshDisplacement);
 	if (!(maxSizeRatio >= 1)) refuseAttribute("maxSizeRatio [-]", maxSizeRatio, ">= 1");
 	requirePositive("thickness [m]", thickness);
@@ -41,8 +44,8 @@ void PoreNetworkEngine::checkAttributes() const
 
 void PoreNetworkEngine::guardAttributes()
 {
-	accepted.guard(
-	        std::tie(poreMode, mergeTolerance, mergeHysteresis, remeshDisplacement, localFlips, maxSizeRatio, thickness, waterPressure),
+	accepted.guard(std::tie(poreMode, mergeTolerance, mergeHysteresis, remeshDisplacement, localFlips, maxSizeRatio,
+	                       thickness, waterPressure),
 	        [this] { PoreNetworkEngine::checkAttributes(); });
 }
 
@@ -57,16 +60,16 @@ void PoreNetworkEngine::build()
 {
 	// Everything is made aside first: a scene that is refused leaves the engine as it was.
 	SceneReader fresh;
-	auto        freshMesh = readScene(fresh);
+	auto freshMesh = readScene(fresh);
 	namingBodies(fresh, [&] { checkTimeStep(); });
-	reader        = std::move(fresh);
-	mesh          = std::move(freshMesh);
-	contents      = capfrac::waterFilled(currentVoids());
-	initialVoid   = thickness * contents.totalWater();
-	initialWater  = initialVoid;
+	reader = std::move(fresh);
+	mesh = std::move(freshMesh);
+	contents = capfrac::waterFilled(currentVoids());
+	initialVoid = thickness * contents.totalWater();
+	initialWater = initialVoid;
 	openEdges.assign(mesh.edges.size(), capfrac::freshEdge);
 	checkedGrains = reader.grains;
-	checkedBox    = reader.box;
+	checkedBox = reader.box;
 	fixedPressures.clear();
 	nCells = static_cast<int>(mesh.cells.size());
 	updateGaps();
@@ -74,7 +77,7 @@ void PoreNetworkEngine::build()
 	try {
 		startFluids();
 	} catch (...) {
-		mesh   = {}; // the network is not there until its fluids are
+		mesh = {}; // the network is not there until its fluids are
 		nCells = nDomains = 0;
 		throw;
 	}
@@ -93,12 +96,13 @@ capfrac::Triangulation PoreNetworkEngine::readScene(SceneReader& fresh) const
 void PoreNetworkEngine::checkSizes(const SceneReader& from) const
 {
 	const auto byRadius = [](const capfrac::Disk& a, const capfrac::Disk& b) { return a.radius < b.radius; };
-	const auto range    = std::minmax_element(from.grains.begin(), from.grains.end(), byRadius);
-	const Real ratio    = range.second->radius / range.first->radius;
+	const auto range = std::minmax_element(from.grains.begin(), from.grains.end(), byRadius);
+	const Real ratio = range.second->radius / range.first->radius;
 	if (ratio <= maxSizeRatio) return;
 	std::ostringstream text;
-	text << "grain radii from " << range.first->radius << " m (body #" << from.grainIds[range.first - from.grains.begin()] << ") to "
-	     << range.second->radius << " m (body #" << from.grainIds[range.second - from.grains.begin()] << "), a ratio of " << ratio
+	text << "grain radii from " << range.first->radius << " m (body #"
+	     << from.grainIds[range.first - from.grains.begin()] << ") to " << range.second->radius << " m (body #"
+	     << from.grainIds[range.second - from.grains.begin()] << "), a ratio of " << ratio
 	     << "; allowed: up to maxSizeRatio = " << maxSizeRatio;
 	throw std::runtime_error(text.str());
 }
@@ -124,8 +128,9 @@ void PoreNetworkEngine::checkTimeStep() const
 		const Real k = math::max(stiffness[body->id][0], stiffness[body->id][1]);
 		if (k <= 0 || scene->dt <= 2 * math::sqrt(body->state->mass / k)) continue;
 		std::ostringstream text;
-		text << "the time step O.dt = " << scene->dt << " s is too large for body #" << body->id << ": its contacts diverge beyond "
-		     << 2 * math::sqrt(body->state->mass / k) << " s; a quarter of that is a good choice";
+		text << "the time step O.dt = " << scene->dt << " s is too large for body #" << body->id
+		     << ": its contacts diverge beyond " << 2 * math::sqrt(body->state->mass / k)
+		     << " s; a quarter of that is a good choice";
 		throw std::runtime_error(text.str());
 	}
 }
@@ -144,7 +149,9 @@ bool PoreNetworkEngine::movedFar() const
 	for (std::size_t i = 0; i < reader.grains.size(); ++i) {
 		const capfrac::Vec2 step = reader.grains[i].centre - checkedGrains[i].centre;
 		// NaN counts as far: the check will name it. Radii change where the fluid compresses grains.
-		if (!(capfrac::dot(step, step) <= limit2 && math::abs(reader.grains[i].radius - checkedGrains[i].radius) <= limit)) return true;
+		if (!(capfrac::dot(step, step) <= limit2
+		            && math::abs(reader.grains[i].radius - checkedGrains[i].radius) <= limit))
+			return true;
 	}
 	for (int w = 0; w < capfrac::nWalls; ++w)
 		if (!(math::abs(reader.box.distance(w, {}) - checkedBox.distance(w, {})) <= limit)) return true;
@@ -154,12 +161,13 @@ bool PoreNetworkEngine::movedFar() const
 void PoreNetworkEngine::update()
 {
 	if (reader.scene && reader.scene != scene)
-		throw std::runtime_error(getClassName() + ": the engine follows the grains of another scene; make a new one for this scene");
+		throw std::runtime_error(getClassName()
+		        + ": the engine follows the grains of another scene; make a new one for this scene");
 	reader.scene = scene;
 	if (reader.nBodies != scene->bodies->size()) {
-		throw std::runtime_error(
-		        getClassName() + " " + whenInLoop(*scene) + "the scene has " + std::to_string(scene->bodies->size())
-		        + " bodies, the network was built for " + std::to_string(reader.nBodies)
+		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + "the scene has "
+		        + std::to_string(scene->bodies->size()) + " bodies, the network was built for "
+		        + std::to_string(reader.nBodies)
 		        + "; bodies cannot be added or removed while an engine follows them");
 	}
 	namingBodies(reader, [&] { reader.read(*scene); });
@@ -167,7 +175,7 @@ void PoreNetworkEngine::update()
 		namingBodies(reader, [&] { capfrac::checkGrains(reader.grains, reader.box); });
 		remesh();
 		checkedGrains = reader.grains;
-		checkedBox    = reader.box;
+		checkedBox = reader.box;
 	}
 	updateGaps();
 }
@@ -184,11 +192,11 @@ void PoreNetworkEngine::remesh()
 	syncContents();
 	beforeRemesh();
 	const auto voids = capfrac::voidAreas(after, reader.grains, reader.box);
-	contents  = capfrac::carryOver(mesh, contents, after, voids, drained() ? std::vector<double>() : currentVoids());
+	contents = capfrac::carryOver(mesh, contents, after, voids, drained() ? std::vector<double>() : currentVoids());
 	openEdges = capfrac::carryOverEdges(mesh, openEdges, after, capfrac::freshEdge);
 	std::swap(mesh, after);
 	followRemesh(after);
-	nCells    = static_cast<int>(mesh.cells.size());
+	nCells = static_cast<int>(mesh.cells.size());
 	fixedPressures.clear();
 	domains = {};
 	++nRemeshes;
@@ -201,14 +209,15 @@ void PoreNetworkEngine::updateGaps()
 	for (std::size_t e = 0; e < gaps.size(); ++e)
 		gaps[e] = capfrac::gap(mesh, mesh.edges[e].a, mesh.edges[e].b, reader.grains, reader.box);
 	const Real openGap = mergeTolerance * smallestRadius();
-	if (capfrac::updateOpenEdges(openEdges, gaps, openGap, mergeHysteresis * openGap) || domains.count == 0) findDomains();
+	if (capfrac::updateOpenEdges(openEdges, gaps, openGap, mergeHysteresis * openGap) || domains.count == 0)
+		findDomains();
 }
 
 void PoreNetworkEngine::findDomains()
 {
 	const auto mode = poreMode == "domain" ? capfrac::PoreMode::domain : capfrac::PoreMode::triangle;
-	domains         = capfrac::findDomains(mesh, openEdges, contents.phase, mode);
-	nDomains        = domains.count;
+	domains = capfrac::findDomains(mesh, openEdges, contents.phase, mode);
+	nDomains = domains.count;
 }
 
 void PoreNetworkEngine::syncContents()

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// What PoreNetworkEngine tells Python. Apart from the engine itself because none of it runs in the loop.
 
 #include "PoreNetworkEngine.hpp"
@@ -29,10 +30,10 @@ py::dict PoreNetworkEngine::pyCells()
 {
 	pyPrepare();
 	const auto voids = currentVoids(), pressures = cellPressures();
-	py::list   vertices, polygons, phase, pressure, voidVolume, gas, water, domain, inlet, cutOff;
+	py::list vertices, polygons, phase, pressure, voidVolume, gas, water, domain, inlet, cutOff;
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const auto& v = mesh.cells[c].vertex;
-		py::list    polygon;
+		py::list polygon;
 		for (capfrac::Vec2 corner : capfrac::cellPolygon(mesh, static_cast<int>(c), reader.grains, reader.box))
 			polygon.append(asTuple(corner));
 		// What the cell holds now: its own phase follows the void, the other stays (see capfrac::followVoids).
@@ -50,7 +51,8 @@ py::dict PoreNetworkEngine::pyCells()
 	}
 	py::dict d;
 	d["vertices"] = vertices, d["polygon"] = polygons, d["phase"] = phase, d["pressure"] = pressure;
-	d["void"] = voidVolume, d["gas"] = gas, d["water"] = water, d["domain"] = domain, d["inlet"] = inlet, d["cutOff"] = cutOff;
+	d["void"] = voidVolume, d["gas"] = gas, d["water"] = water, d["domain"] = domain, d["inlet"] = inlet,
+	d["cutOff"] = cutOff;
 	return d;
 }
 
@@ -76,7 +78,7 @@ py::dict PoreNetworkEngine::pyForces()
 	pyPrepare();
 	beforeReport();
 	const auto forces = forcesOfFluids();
-	py::dict   d;
+	py::dict d;
 	for (std::size_t i = 0; i < forces.grains.size(); ++i)
 		d[reader.grainIds[i]] = asTuple(thickness * forces.grains[i]);
 	for (int w = 0; w < capfrac::nWalls; ++w)
@@ -89,8 +91,8 @@ py::dict PoreNetworkEngine::pyVolumes()
 	pyPrepare();
 	syncContents();
 	const Real gas = thickness * contents.totalGas(), water = thickness * contents.totalWater();
-	py::dict   d;
-	Real       voidVolume = 0;
+	py::dict d;
+	Real voidVolume = 0;
 	for (double v : currentVoids())
 		voidVolume += thickness * v;
 	d["void"] = voidVolume, d["gas"] = gas, d["water"] = water;
@@ -103,12 +105,12 @@ void PoreNetworkEngine::pySetCellPressures(const std::vector<Real>& pressures)
 {
 	pyPrepare();
 	if (pressures.size() != mesh.cells.size())
-		throw std::invalid_argument(
-		        "pressures: " + std::to_string(pressures.size()) + " values, allowed: one for each of the " + std::to_string(mesh.cells.size())
-		        + " cells");
+		throw std::invalid_argument("pressures: " + std::to_string(pressures.size())
+		        + " values, allowed: one for each of the " + std::to_string(mesh.cells.size()) + " cells");
 	for (std::size_t c = 0; c < pressures.size(); ++c)
 		if (!std::isfinite(pressures[c]))
-			throw std::invalid_argument("pressures: cell " + std::to_string(c) + " has " + std::to_string(pressures[c]) + " Pa, allowed: finite");
+			throw std::invalid_argument("pressures: cell " + std::to_string(c) + " has "
+			        + std::to_string(pressures[c]) + " Pa, allowed: finite");
 	fixedPressures = pressures;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 #include "../geometry/VoidGeometry.hpp"
@@ -16,10 +17,10 @@ namespace yade {
 /// are the four bodies with a Wall shape, two of axis 0 and two of axis 1. Anything else in the scene is
 /// refused by its id: a body that takes room but is not in the network would break every volume balance.
 struct SceneReader {
-	std::vector<Body::id_t>                   grainIds; ///< vertex -> body
-	std::array<Body::id_t, capfrac::nWalls>   wallIds {}; ///< in the order of capfrac::Wall
-	std::vector<capfrac::Disk>                grains;
-	capfrac::Box                              box;
+	std::vector<Body::id_t> grainIds;                   ///< vertex -> body
+	std::array<Body::id_t, capfrac::nWalls> wallIds {}; ///< in the order of capfrac::Wall
+	std::vector<capfrac::Disk> grains;
+	capfrac::Box box;
 
 	/// Finds grains and walls anew. Throws std::runtime_error naming the body at fault.
 	void find(const Scene& from);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "SinglePhaseFlowEngine.hpp"
 #include "Walls.hpp"
 
@@ -21,18 +22,23 @@ void SinglePhaseFlowEngine::checkAttributes() const
 	requireNotNegative("residualAperture [m]", residualAperture);
 	requirePositive("halvingForce [N]", halvingForce);
 	if (timeIntegration != "undrainedStable" && timeIntegration != "implicit" && timeIntegration != "explicit")
-		refuseAttribute("timeIntegration", "'" + timeIntegration + "'", "'undrainedStable', 'implicit', 'explicit'");
+		refuseAttribute(
+		        "timeIntegration", "'" + timeIntegration + "'", "'undrainedStable', 'implicit', 'explicit'");
 	requireNotNegative("fluidDensity [kg/m³]", fluidDensity);
 	requireFinite("gravity [m/s²]", gravity.squaredNorm());
 	requirePositive("closedPore [-]", closedPore);
 	if (!(grainBulkModulus > 0)) refuseAttribute("grainBulkModulus [Pa]", grainBulkModulus, "> 0, or infinity");
-	if (wallPressures.size() != nWalls) refuseAttribute("wallPressures", wallPressures.size(), "four values: left, right, bottom, top");
-	if (wallFluxes.size() != nWalls) refuseAttribute("wallFluxes", wallFluxes.size(), "four values: left, right, bottom, top");
+	if (wallPressures.size() != nWalls)
+		refuseAttribute("wallPressures", wallPressures.size(), "four values: left, right, bottom, top");
+	if (wallFluxes.size() != nWalls)
+		refuseAttribute("wallFluxes", wallFluxes.size(), "four values: left, right, bottom, top");
 	for (int w = 0; w < nWalls; ++w) {
 		if (!math::isnan(wallPressures[w])) requireFinite("wallPressures [Pa]", wallPressures[w]);
 		requireFinite("wallFluxes [m³/s]", wallFluxes[w]);
 		if (!math::isnan(wallPressures[w]) && wallFluxes[w] != 0)
-			refuseAttribute("wallFluxes [m³/s]", wallFluxes[w], std::string("0 where wallPressures prescribes a pressure (the ") + wallName(w) + " wall is named twice)");
+			refuseAttribute("wallFluxes [m³/s]", wallFluxes[w],
+			        std::string("0 where wallPressures prescribes a pressure (the ") + wallName(w)
+			                + " wall is named twice)");
 	}
 	for (const auto& p : pointPressures)
 		requireFinite("pointPressures", p.squaredNorm());
@@ -42,20 +48,22 @@ void SinglePhaseFlowEngine::checkAttributes() const
 
 void SinglePhaseFlowEngine::guardAttributes()
 {
-	accepted.guard(
-	        std::tie(
-	                bulkModulus, viscosity, conductanceLaw, conductanceFactor, residualAperture, halvingForce, timeIntegration, wallPressures, wallFluxes,
-	                pointPressures, pointFluxes, fluidDensity, gravity, closedPore, grainBulkModulus),
+	accepted.guard(std::tie(bulkModulus, viscosity, conductanceLaw, conductanceFactor, residualAperture,
+	                       halvingForce, timeIntegration, wallPressures, wallFluxes, pointPressures, pointFluxes,
+	                       fluidDensity, gravity, closedPore, grainBulkModulus),
 	        [this] { SinglePhaseFlowEngine::checkAttributes(); });
 	conductance = capfrac::conductanceLawFromName(conductanceLaw);
-	scheme      = timeIntegration == "explicit" ? Scheme::explicitEuler : timeIntegration == "implicit" ? Scheme::implicit : Scheme::undrainedStable;
+	scheme = timeIntegration == "explicit"  ? Scheme::explicitEuler
+	        : timeIntegration == "implicit" ? Scheme::implicit
+	                                        : Scheme::undrainedStable;
 }
 
 /// The old factor decides the last bits of the next pressures: a run goes on as if it had not been saved.
 void SinglePhaseFlowEngine::preSave(SinglePhaseFlowEngine&)
 {
-	auto memory      = solver.memory();
-	savedSolverStart = std::move(memory.start), savedSolverRow = std::move(memory.row), savedSolverValue = std::move(memory.value);
+	auto memory = solver.memory();
+	savedSolverStart = std::move(memory.start), savedSolverRow = std::move(memory.row),
+	savedSolverValue = std::move(memory.value);
 }
 
 /// Else the next assignment, at which YADE calls postLoad(), would take the solver back to where it was saved.
@@ -68,7 +76,8 @@ void SinglePhaseFlowEngine::postLoad(SinglePhaseFlowEngine&)
 {
 	guardAttributes();
 	if (savedSolverStart.empty()) return;
-	solver.recall({ std::exchange(savedSolverStart, {}), std::exchange(savedSolverRow, {}), std::exchange(savedSolverValue, {}) });
+	solver.recall({ std::exchange(savedSolverStart, {}), std::exchange(savedSolverRow, {}),
+	        std::exchange(savedSolverValue, {}) });
 }
 
 void SinglePhaseFlowEngine::checkWeight() const
@@ -76,8 +85,8 @@ void SinglePhaseFlowEngine::checkWeight() const
 	if (!weightless() || gravity.squaredNorm() == 0) return;
 	std::ostringstream value;
 	value << "(" << gravity[0] << ", " << gravity[1] << ")";
-	capfrac::refuseAttribute(
-	        "gravity [m/s²]", value.str(), "(0, 0) while no fluid has a density (fluidDensity), as it acts on fluids alone");
+	capfrac::refuseAttribute("gravity [m/s²]", value.str(),
+	        "(0, 0) while no fluid has a density (fluidDensity), as it acts on fluids alone");
 }
 
 void SinglePhaseFlowEngine::startFluids()
@@ -94,9 +103,13 @@ void SinglePhaseFlowEngine::startFluids()
 }
 
 /// For reports until the next step finds pressures anew: cells that are new have that of a neighbour that is not.
-void SinglePhaseFlowEngine::followRemesh(const capfrac::Triangulation& before) { carryOverCells(cellPressure, before, waterPressure); }
+void SinglePhaseFlowEngine::followRemesh(const capfrac::Triangulation& before)
+{
+	carryOverCells(cellPressure, before, waterPressure);
+}
 
-void SinglePhaseFlowEngine::carryOverCells(std::vector<Real>& values, const capfrac::Triangulation& before, Real fallback) const
+void SinglePhaseFlowEngine::carryOverCells(
+        std::vector<Real>& values, const capfrac::Triangulation& before, Real fallback) const
 {
 	if (values.size() != before.cells.size()) return;
 	std::vector<Real> kept(mesh.cells.size(), NaN);
@@ -118,9 +131,12 @@ void SinglePhaseFlowEngine::carryOverCells(std::vector<Real>& values, const capf
 capfrac::FlowStep SinglePhaseFlowEngine::step(capfrac::FlowNetwork& network)
 {
 	switch (scheme) {
-		case Scheme::explicitEuler: return capfrac::explicitStep(network, {}, scene->dt, compression());
-		case Scheme::implicit: return capfrac::implicitStep(network, {}, scene->dt, solver, compression());
-		default: break;
+	case Scheme::explicitEuler:
+		return capfrac::explicitStep(network, {}, scene->dt, compression());
+	case Scheme::implicit:
+		return capfrac::implicitStep(network, {}, scene->dt, solver, compression());
+	default:
+		break;
 	}
 	if (!grainsMove()) return capfrac::implicitStep(network, {}, scene->dt, solver, compression());
 	return capfrac::coupledStep(network, skeleton(), scene->dt, solver);
@@ -132,25 +148,26 @@ void SinglePhaseFlowEngine::describePores()
 	voids.resize(moments.size());
 	for (std::size_t c = 0; c < moments.size(); ++c) {
 		moments[c] = capfrac::voidMoments(mesh, static_cast<int>(c), reader.grains, reader.box);
-		voids[c]   = moments[c].area;
+		voids[c] = moments[c].area;
 	}
 	groupPores(moments);
-	gradients = capfrac::volumeGradients(mesh, reader.grains, reader.box, std::isfinite(grainBulkModulus) ? capfrac::Radii::vary : capfrac::Radii::fixed);
+	gradients = capfrac::volumeGradients(mesh, reader.grains, reader.box,
+	        std::isfinite(grainBulkModulus) ? capfrac::Radii::vary : capfrac::Radii::fixed);
 	weightForce = weightOfFluid();
 }
 
 void SinglePhaseFlowEngine::advanceFluids()
 {
 	describePores();
-	auto       network = flowNetwork();
-	const auto done    = namingPores([&] {
+	auto network = flowNetwork();
+	const auto done = namingPores([&] {
 		auto found = step(network);
 		compressGrains(found.growth);
 		return found;
 	});
 	// A pore has one pressure: its cells share its mass by their voids.
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-		const int p       = poreOfCell[c];
+		const int p = poreOfCell[c];
 		contents.water[c] = network.pores[p].mass / poreVolume[p] * voids[c];
 	}
 	cellPressure.resize(mesh.cells.size());
@@ -188,11 +205,13 @@ std::vector<double> SinglePhaseFlowEngine::cellPressures() const
 
 Real SinglePhaseFlowEngine::wallStiffness(int wall) const
 {
-	// The pores at a wall as closed springs, dF/dx = (dV/dx)^2 K_f/V; an incompressible fluid counts as water. A step that
-	// foresees the wall's motion is no spring to it.
-	if (scheme == Scheme::undrainedStable || !prepared() || poreVolume.empty() || gradients.walls.empty() || !math::isnan(prescribedPressure(wall))) return 0;
+	// The pores at a wall as closed springs, dF/dx = (dV/dx)^2 K_f/V; an incompressible fluid counts as water. A
+	// step that foresees the wall's motion is no spring to it.
+	if (scheme == Scheme::undrainedStable || !prepared() || poreVolume.empty() || gradients.walls.empty()
+	        || !math::isnan(prescribedPressure(wall)))
+		return 0;
 	const Real modulus = std::isfinite(bulkModulus) ? bulkModulus : 2.2e9;
-	Real       sum     = 0;
+	Real sum = 0;
 	std::map<int, Real> response;
 	for (const auto& g : gradients.walls)
 		if (g.wall == wall) response[poreOfCell[g.cell]] += thickness * g.outward;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The pores of SinglePhaseFlowEngine as a problem of flow: volumes, throats, boundaries.
 
 #include "SinglePhaseFlowEngine.hpp"
@@ -12,24 +13,26 @@
 
 namespace yade {
 
-/// Pores are the domains; one that grains have all but closed is joined to the neighbour across its widest throat, because
-/// a pressure K_f (m/V - 1) means nothing where V goes to zero.
+/// Pores are the domains; one that grains have all but closed is joined to the neighbour across its widest throat,
+/// because a pressure K_f (m/V - 1) means nothing where V goes to zero.
 void SinglePhaseFlowEngine::groupPores(const std::vector<capfrac::VoidMoments>& moments)
 {
-	const auto         volumes  = capfrac::sumOverDomains(domains, voids);
-	const Real         smallest = smallestRadius(), least = closedPore * M_PI * smallest * smallest;
+	const auto volumes = capfrac::sumOverDomains(domains, voids);
+	const Real smallest = smallestRadius(), least = closedPore * M_PI * smallest * smallest;
 	capfrac::UnionFind joined(domains.count);
-	std::vector<Real>  size(volumes.begin(), volumes.end());
+	std::vector<Real> size(volumes.begin(), volumes.end());
 	for (bool changed = true; changed;) {
 		changed = false;
 		std::map<int, std::pair<Real, int>> widest; // closed pore -> gap and neighbour
 		for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
 			const auto& edge = mesh.edges[e];
 			if (edge.left < 0 || edge.right < 0) continue;
-			const int a = joined.find(domains.ofCell[edge.left]), b = joined.find(domains.ofCell[edge.right]);
+			const int a = joined.find(domains.ofCell[edge.left]),
+			          b = joined.find(domains.ofCell[edge.right]);
 			if (a == b) continue;
 			for (auto [closed, other] : { std::pair(a, b), std::pair(b, a) })
-				if (size[closed] < least && (!widest.count(closed) || gaps[e] > widest[closed].first)) widest[closed] = { gaps[e], other };
+				if (size[closed] < least && (!widest.count(closed) || gaps[e] > widest[closed].first))
+					widest[closed] = { gaps[e], other };
 		}
 		for (const auto& [closed, neighbour] : widest) {
 			const int a = joined.find(closed), b = joined.find(neighbour.second);
@@ -37,7 +40,7 @@ void SinglePhaseFlowEngine::groupPores(const std::vector<capfrac::VoidMoments>& 
 			const Real sum = size[a] + size[b];
 			joined.join(a, b);
 			size[joined.find(a)] = sum;
-			changed              = true;
+			changed = true;
 		}
 	}
 	std::vector<int> number(domains.count, -1);
@@ -66,7 +69,8 @@ void SinglePhaseFlowEngine::findPoresAlongWalls()
 		if (math::isnan(prescribedPressure(w))) continue;
 		for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 			const auto& v = mesh.cells[c].vertex;
-			if (std::find(v.begin(), v.end(), mesh.nGrains + w) != v.end()) poresAlong[w].push_back(poreOfCell[c]);
+			if (std::find(v.begin(), v.end(), mesh.nGrains + w) != v.end())
+				poresAlong[w].push_back(poreOfCell[c]);
 		}
 		std::sort(poresAlong[w].begin(), poresAlong[w].end());
 		poresAlong[w].erase(std::unique(poresAlong[w].begin(), poresAlong[w].end()), poresAlong[w].end());
@@ -91,21 +95,25 @@ std::optional<capfrac::FlowThroat> SinglePhaseFlowEngine::throatAt(int e) const
 {
 	const auto& edge = mesh.edges[e];
 	if (edge.left < 0 || edge.right < 0 || poreOfCell[edge.left] == poreOfCell[edge.right]) return {};
-	const int  a = poreOfCell[edge.left], b = poreOfCell[edge.right];
+	const int a = poreOfCell[edge.left], b = poreOfCell[edge.right];
 	const bool wall = mesh.isWall(edge.b);
 	// A wall mirrors: the throat there is half of that between the grain and its image.
-	const Real ra = reader.grains[edge.a].radius, rb = wall ? ra : reader.grains[edge.b].radius, gap = wall ? 2 * gaps[e] : gaps[e];
+	const Real ra = reader.grains[edge.a].radius, rb = wall ? ra : reader.grains[edge.b].radius,
+	           gap = wall ? 2 * gaps[e] : gaps[e];
 	capfrac::ThroatDetails details;
-	details.length = math::max(capfrac::norm(poreCentre[a] - poreCentre[b]), 1e-6 * (ra + rb)); // centres of a nested pair may coincide
-	Real r         = 0.5 * (ra + rb);
+	details.length = math::max(capfrac::norm(poreCentre[a] - poreCentre[b]),
+	        1e-6 * (ra + rb)); // centres of a nested pair may coincide
+	Real r = 0.5 * (ra + rb);
 	if (conductance == capfrac::ConductanceLaw::lubrication) r = 2 * ra * rb / (ra + rb);
 	if (conductance == capfrac::ConductanceLaw::parallelPlates) {
-		details.plates      = { residualAperture, halvingForce, 1.0 };
-		const auto contact  = scene->interactions->find(reader.bodyOf(edge.a), reader.bodyOf(edge.b));
-		const auto* phys    = contact && contact->isReal() ? dynamic_cast<const NormPhys*>(contact->phys.get()) : nullptr;
+		details.plates = { residualAperture, halvingForce, 1.0 };
+		const auto contact = scene->interactions->find(reader.bodyOf(edge.a), reader.bodyOf(edge.b));
+		const auto* phys =
+		        contact && contact->isReal() ? dynamic_cast<const NormPhys*>(contact->phys.get()) : nullptr;
 		details.normalForce = phys ? phys->normalForce.norm() : 0;
 	}
-	const Real c = (wall ? 0.5 : 1.0) * capfrac::conductance(conductance, gap, r, viscosity, thickness, details, conductanceFactor);
+	const Real c = (wall ? 0.5 : 1.0)
+	        * capfrac::conductance(conductance, gap, r, viscosity, thickness, details, conductanceFactor);
 	return capfrac::FlowThroat { a, b, c / details.length };
 }
 
@@ -117,19 +125,22 @@ void SinglePhaseFlowEngine::addThroats(capfrac::FlowNetwork& network) const
 		if (!throat) continue;
 		network.throats.push_back(*throat);
 		// Flow from a to b under the fluid's weight.
-		const Real drive = throat->conductance * capfrac::dot(weight, poreCentre[throat->b] - poreCentre[throat->a]);
+		const Real drive =
+		        throat->conductance * capfrac::dot(weight, poreCentre[throat->b] - poreCentre[throat->a]);
 		network.pores[throat->a].source -= drive;
 		network.pores[throat->b].source += drive;
 	}
 }
 
-void SinglePhaseFlowEngine::fixPressure(capfrac::FlowNetwork& network, int pore, double pressure, const std::string& owner) const
+void SinglePhaseFlowEngine::fixPressure(
+        capfrac::FlowNetwork& network, int pore, double pressure, const std::string& owner) const
 {
 	auto& fixed = network.pores[pore].fixedPressure;
 	if (fixed && *fixed != pressure) {
 		std::ostringstream text;
-		text << getClassName() << " " << whenInLoop(*scene) << "the pore at (" << poreCentre[pore].x << ", " << poreCentre[pore].y << ") m has the pressure " << *fixed
-		     << " Pa from another boundary and " << pressure << " Pa from " << owner << "; allowed: one pressure for a pore";
+		text << getClassName() << " " << whenInLoop(*scene) << "the pore at (" << poreCentre[pore].x << ", "
+		     << poreCentre[pore].y << ") m has the pressure " << *fixed << " Pa from another boundary and "
+		     << pressure << " Pa from " << owner << "; allowed: one pressure for a pore";
 		throw std::runtime_error(text.str());
 	}
 	fixed = pressure;
@@ -142,11 +153,12 @@ void SinglePhaseFlowEngine::addBoundaries(capfrac::FlowNetwork& network) const
 			fixPressure(network, pore, prescribedPressure(w), std::string("the ") + wallName(w) + " wall");
 		if (wallFluxes[w] == 0) continue;
 		const auto stretches = wallStretches(mesh, domains, reader, w);
-		Real       length    = 0;
+		Real length = 0;
 		for (const auto& s : stretches)
 			length += s.to - s.from;
 		for (const auto& s : stretches)
-			network.pores[poreOfCell[domains.first[s.domain]]].source += wallFluxes[w] * (s.to - s.from) / length;
+			network.pores[poreOfCell[domains.first[s.domain]]].source +=
+			        wallFluxes[w] * (s.to - s.from) / length;
 	}
 	for (const auto& p : pointPressures)
 		fixPressure(network, poreOfCell[cellAt(mesh, reader, { p[0], p[1] })], p[2], "pointPressures");

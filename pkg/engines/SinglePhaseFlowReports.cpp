@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// What SinglePhaseFlowEngine reports to Python.
 
 #include "SinglePhaseFlowEngine.hpp"
@@ -14,7 +15,7 @@ py::dict SinglePhaseFlowEngine::pyPores()
 	pyPrepare();
 	describePores();
 	std::vector<Real> water(nPores, 0);
-	std::vector<int>  cells(nPores, 0);
+	std::vector<int> cells(nPores, 0);
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		water[poreOfCell[c]] += thickness * contents.water[c];
 		++cells[poreOfCell[c]];
@@ -26,7 +27,8 @@ py::dict SinglePhaseFlowEngine::pyPores()
 	py::list x, y, pressure, volume, mass, number;
 	for (int p = 0; p < nPores; ++p) {
 		x.append(poreCentre[p].x), y.append(poreCentre[p].y);
-		pressure.append(pressures[p]), volume.append(poreVolume[p]), mass.append(water[p]), number.append(cells[p]);
+		pressure.append(pressures[p]), volume.append(poreVolume[p]), mass.append(water[p]),
+		        number.append(cells[p]);
 	}
 	py::dict d;
 	d["x"] = x, d["y"] = y, d["pressure"] = pressure, d["volume"] = volume, d["water"] = mass, d["cells"] = number;
@@ -51,7 +53,9 @@ Real SinglePhaseFlowEngine::pyTimeStepLimit()
 void SinglePhaseFlowEngine::pySetCellPressures(const std::vector<Real>& pressures)
 {
 	pyPrepare();
-	if (!std::isfinite(bulkModulus)) throw std::invalid_argument("setCellPressures: an incompressible fluid has no pressures of its own; prescribe them at boundaries");
+	if (!std::isfinite(bulkModulus))
+		throw std::invalid_argument("setCellPressures: an incompressible fluid has no pressures of its own; "
+		                            "prescribe them at boundaries");
 	PoreNetworkEngine::pySetCellPressures(pressures);
 	const auto voids = currentVoids();
 	for (std::size_t c = 0; c < contents.water.size(); ++c)

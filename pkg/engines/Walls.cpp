@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "Walls.hpp"
 #include "Attributes.hpp"
 
@@ -14,7 +15,8 @@ std::string wallName(int wall) { return names[wall]; }
 int wallFromName(const std::string& attribute, const std::string& name)
 {
 	const auto found = std::find(names.begin(), names.end(), name);
-	if (found == names.end()) capfrac::refuseAttribute(attribute, "'" + name + "'", "'left', 'right', 'bottom', 'top'");
+	if (found == names.end())
+		capfrac::refuseAttribute(attribute, "'" + name + "'", "'left', 'right', 'bottom', 'top'");
 	return static_cast<int>(found - names.begin());
 }
 
@@ -26,10 +28,10 @@ std::vector<int> wallsFromName(const std::string& attribute, const std::string& 
 	return { wallFromName(attribute, name) };
 }
 
-std::vector<WallStretch>
-wallStretches(const capfrac::Triangulation& mesh, const capfrac::Domains& domains, const SceneReader& reader, int wall)
+std::vector<WallStretch> wallStretches(
+        const capfrac::Triangulation& mesh, const capfrac::Domains& domains, const SceneReader& reader, int wall)
 {
-	const bool               flat = wall == capfrac::wallBottom || wall == capfrac::wallTop;
+	const bool flat = wall == capfrac::wallBottom || wall == capfrac::wallTop;
 	std::vector<WallStretch> pieces;
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const auto& v = mesh.cells[c].vertex;
@@ -39,14 +41,16 @@ wallStretches(const capfrac::Triangulation& mesh, const capfrac::Domains& domain
 		for (const auto& corner : capfrac::cellPolygon(mesh, static_cast<int>(c), reader.grains, reader.box)) {
 			if (capfrac::norm(corner - reader.box.foot(wall, corner)) > 0) continue;
 			piece.from = math::min(piece.from, flat ? corner.x : corner.y);
-			piece.to   = math::max(piece.to, flat ? corner.x : corner.y);
+			piece.to = math::max(piece.to, flat ? corner.x : corner.y);
 		}
 		pieces.push_back(piece);
 	}
-	std::sort(pieces.begin(), pieces.end(), [](const WallStretch& a, const WallStretch& b) { return a.middle() < b.middle(); });
+	std::sort(pieces.begin(), pieces.end(),
+	        [](const WallStretch& a, const WallStretch& b) { return a.middle() < b.middle(); });
 	std::vector<WallStretch> stretches;
 	for (const auto& piece : pieces)
-		if (!stretches.empty() && stretches.back().domain == piece.domain) stretches.back().to = piece.to;
+		if (!stretches.empty() && stretches.back().domain == piece.domain)
+			stretches.back().to = piece.to;
 		else
 			stretches.push_back(piece);
 	return stretches;
@@ -56,9 +60,10 @@ int cellAt(const capfrac::Triangulation& mesh, const SceneReader& reader, capfra
 {
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const auto polygon = capfrac::cellPolygon(mesh, static_cast<int>(c), reader.grains, reader.box);
-		bool       inside  = true;
+		bool inside = true;
 		for (std::size_t k = 0; k < polygon.size(); ++k)
-			inside &= capfrac::cross(polygon[(k + 1) % polygon.size()] - polygon[k], point - polygon[k]) >= 0;
+			inside &=
+			        capfrac::cross(polygon[(k + 1) % polygon.size()] - polygon[k], point - polygon[k]) >= 0;
 		if (inside) return static_cast<int>(c);
 	}
 	std::ostringstream text;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// The pores along a wall.
@@ -19,14 +20,14 @@ std::vector<int> wallsFromName(const std::string& attribute, const std::string& 
 
 /// The part of a wall that belongs to one domain, in the coordinate along the wall [m].
 struct WallStretch {
-	int  domain = -1;
+	int domain = -1;
 	Real from = 0, to = 0;
 	Real middle() const { return 0.5 * (from + to); }
 };
 
 /// The stretches of a wall in the order of the coordinate; neighbouring cells of one domain make one stretch.
-std::vector<WallStretch>
-wallStretches(const capfrac::Triangulation& mesh, const capfrac::Domains& domains, const SceneReader& reader, int wall);
+std::vector<WallStretch> wallStretches(
+        const capfrac::Triangulation& mesh, const capfrac::Domains& domains, const SceneReader& reader, int wall);
 
 /// The cell that holds a point; throws std::invalid_argument where there is none (outside the box).
 int cellAt(const capfrac::Triangulation& mesh, const SceneReader& reader, capfrac::Vec2 point);
