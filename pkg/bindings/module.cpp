@@ -5,6 +5,7 @@
 /// buffer protocol: that is the same for every version of NumPy, which Boost.Python's own arrays are not.
 
 #include "Buffer.hpp"
+#include "Models.hpp"
 
 #include "../laws/EntryPressure.hpp"
 #include "../invasion/Drainage.hpp"
@@ -115,4 +116,5 @@ BOOST_PYTHON_MODULE(_kernels)
 	        "`contactAngle` [rad]; `law`:\n"
 	        "'inscribedSphere' (Eq. 15 of Jain & Juanes 2008, corrected) or 'mayerStowePrincen'. ValueError naming "
 	        "the throat and what is allowed.");
+	capfrac::addModels();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "MeniscusCohesionEngine.hpp"
-#include "GasInvasionEngine.hpp"
+#include "GasEngine.hpp"
 #include "EngineErrors.hpp"
 #include "StepOrder.hpp"
 
@@ -76,7 +76,7 @@ PoreNetworkEngine& MeniscusCohesionEngine::fluid() const
 void MeniscusCohesionEngine::read(const PoreNetworkEngine& network)
 {
 	checkAttributes();
-	const auto* gas = dynamic_cast<const GasInvasionEngine*>(&network);
+	const auto* gas = dynamic_cast<const GasEngine*>(&network);
 	auto choose = [&](const char* name, Real own, Real theirs) {
 		if (math::isnan(own) && !gas)
 			capfrac::refuseAttribute("MeniscusCohesionEngine." + std::string(name), own,
@@ -101,7 +101,7 @@ void MeniscusCohesionEngine::read(const PoreNetworkEngine& network)
 
 MeniscusCohesionEngine::Place MeniscusCohesionEngine::place(const PoreNetworkEngine& network, const Pair& pair) const
 {
-	const auto& mesh = network.network();
+	const auto& mesh = network.pores().mesh;
 	const auto& grain = reader.grains[pair.a];
 	const Real gap = capfrac::gap(mesh, pair.a, pair.b, reader.grains, reader.box);
 	// The image behind the wall is as far from it as the grain.
@@ -115,8 +115,8 @@ MeniscusCohesionEngine::Place MeniscusCohesionEngine::place(const PoreNetworkEng
 std::vector<MeniscusCohesionEngine::Pair> MeniscusCohesionEngine::pairsThatGasMeets(
         const PoreNetworkEngine& network) const
 {
-	const auto& mesh = network.network();
-	const auto& phase = network.fluids().phase;
+	const auto& mesh = network.pores().mesh;
+	const auto& phase = network.pores().contents.phase;
 	std::vector<Pair> found;
 	for (const auto& edge : mesh.edges) { // in ascending order
 		if (edge.left < 0 || edge.right < 0 || (!walls && mesh.isWall(edge.b))) continue;

@@ -123,6 +123,19 @@ void SceneReader::addForces(Scene& to, const capfrac::FluidForces& forces, Real 
 		to.forces.addForce(wallIds[w], thickness * Vector3r(forces.walls[w].x, forces.walls[w].y, 0));
 }
 
+void SceneReader::grow(Scene& to, const std::vector<Real>& growth) const
+{
+	for (std::size_t i = 0; i < growth.size(); ++i)
+		static_cast<Sphere&>(*(*to.bodies)[grainIds[i]]->shape).radius = grains[i].radius + growth[i];
+}
+
+std::vector<int> SceneReader::ids() const
+{
+	std::vector<int> all(grainIds.begin(), grainIds.end());
+	all.insert(all.end(), wallIds.begin(), wallIds.end());
+	return all;
+}
+
 int SceneReader::vertexOf(Body::id_t id) const
 {
 	const auto grain = std::lower_bound(grainIds.begin(), grainIds.end(), id);

@@ -6,6 +6,9 @@
 #include <core/Body.hpp>
 #include <core/Scene.hpp>
 
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <string>
 #include <vector>
 
@@ -30,6 +33,8 @@ struct SceneReader {
 	void readWalls(const Scene& from);
 	/// Adds forces [N/m, times `thickness`] to grains and walls.
 	void addForces(Scene& to, const capfrac::FluidForces& forces, Real thickness) const;
+	/// Lets the grains grow by so much [m] (empty: not at all), radii being those that were read.
+	void grow(Scene& to, const std::vector<Real>& growth) const;
 	/// The vertex of a body; -1 where it is none.
 	int vertexOf(Body::id_t id) const;
 	/// The body of a vertex of the triangulation (grain or wall).
@@ -38,6 +43,15 @@ struct SceneReader {
 	const Scene* scene = nullptr;
 	/// Number of bodies when find() ran, to notice a scene that changed.
 	std::size_t nBodies = 0;
+	/// The bodies of all vertices, grains first, then walls.
+	std::vector<int> ids() const;
+
+	template <class Archive> void serialize(Archive& archive, unsigned)
+	{
+		archive& boost::serialization::make_nvp("grainIds", grainIds);
+		archive& boost::serialization::make_nvp("wallIds", wallIds);
+		archive& boost::serialization::make_nvp("nBodies", nBodies);
+	}
 };
 
 /// "at time t = … s, iteration …": the beginning of every message from inside the loop.

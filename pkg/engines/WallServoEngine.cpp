@@ -4,7 +4,7 @@
 #include "EngineErrors.hpp"
 #include "PoreNetworkEngine.hpp"
 #include "StepOrder.hpp"
-#include "Walls.hpp"
+#include "../network/Boundary.hpp"
 
 #include <core/Omega.hpp>
 #include <pkg/common/NormShearPhys.hpp>
@@ -27,9 +27,9 @@ void WallServoEngine::checkAttributes() const
 	requireFinite("WallServoEngine.driveVelocity [m/s]", driveVelocity);
 	if (!math::isnan(meanStress)) requirePositive("WallServoEngine.meanStress [Pa]", meanStress);
 	for (const auto& name : fixedWalls)
-		wallFromName("WallServoEngine.fixedWalls", name);
+		capfrac::wallFromName("WallServoEngine.fixedWalls", name);
 	for (const auto& name : drivenWalls)
-		wallFromName("WallServoEngine.drivenWalls", name);
+		capfrac::wallFromName("WallServoEngine.drivenWalls", name);
 }
 
 void WallServoEngine::guardAttributes()
@@ -43,7 +43,7 @@ WallServoEngine::Task WallServoEngine::task(int wall) const
 {
 	auto holds = [&](const std::vector<std::string>& names) {
 		return std::any_of(names.begin(), names.end(),
-		        [&](const auto& name) { return wallFromName("WallServoEngine", name) == wall; });
+		        [&](const auto& name) { return capfrac::wallFromName("WallServoEngine", name) == wall; });
 	};
 	return holds(drivenWalls) ? Task::driven : holds(fixedWalls) ? Task::fixed : Task::stress;
 }

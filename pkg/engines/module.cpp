@@ -14,9 +14,10 @@ BOOST_PYTHON_MODULE(_engines)
 	py::object wrapper = py::import("yade.wrapper");
 	py::scope inWrapper(wrapper);
 	// Bases first. Omega::loadPlugins would do it for all classes, but wraps YADE's own a second time.
-	for (const char* name : { "DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys",
-	             "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D", "PoreNetworkEngine",
-	             "SinglePhaseFlowEngine", "GasInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine" }) {
+	for (const char* name :
+	        { "DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys",
+	                "Ig2_Wall_Sphere_ScGeom6D", "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasEngine",
+	                "GasInvasionEngine", "ViscousInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine" }) {
 		auto instance =
 		        YADE_PTR_DYN_CAST<yade::Serializable>(yade::ClassFactory::instance().createShared(name));
 		instance->pyRegisterClass(wrapper);

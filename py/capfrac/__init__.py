@@ -5,7 +5,8 @@ An extension of YADE. ``import capfrac`` in a YADE script or session adds the cl
 * ``DiskMat``, ``WallMat``: materials of the grains (disks) and of the box,
 * ``Ip2_DiskMat_DiskMat_CohFrictPhys``, ``Ip2_WallMat_DiskMat_CohFrictPhys``, ``Ig2_Wall_Sphere_ScGeom6D``:
   their contacts,
-* ``PoreNetworkEngine``, ``GasInvasionEngine``: the pores, and gas that enters them,
+* ``PoreNetworkEngine``, ``SinglePhaseFlowEngine``, ``GasInvasionEngine``, ``ViscousInvasionEngine``: the pores, water
+  that flows through them, and gas that enters them, against drained or viscous water,
 * ``MeniscusCohesionEngine``: menisci that pull grains together where both fluids meet,
 * ``WallServoEngine``: walls that hold stresses,
 
@@ -64,7 +65,7 @@ def _load(threads):
             "or YADE with `capfrac yade`, which know where everything is"
         ) from problem
     names = ["DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D",
-             "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine"]
+             "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "ViscousInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine"]
     main = importlib.import_module("__main__")
     for name in names:
         # A YADE session has YADE's classes among its own names: ours belong there too.

@@ -83,11 +83,14 @@ def startGas(case):
     """
     inlet, gas, ramp, supply = (case[section] for section in ("inlet", "gas", "ramp", "supply"))
     walls = sediment.wallBodies()
+    flow = case["water"]["flow"]
+    special = casewords.VISCOUS if flow == "solved" else casewords.DRAINED
     engine = startInjection(
         ramp["start"], _increment(case), ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"],
         _inletStretch(inlet, walls), _inletPoints(inlet, walls), contactAngle=math.radians(gas["contactAngle"]),
         gasTable=[tuple(map(float, pair)) for pair in gas["table"]], gravity=tuple(gas["gravity"]),
-        pressureProgram=[float(p) for p in supply["program"]], **casewords.values(case, casewords.GAS))
+        pressureProgram=[float(p) for p in supply["program"]], waterFlow=flow,
+        **casewords.values(case, {**casewords.GAS, **special}))
     if case["cohesion"]["menisci"] != "none":
         addMenisci(case["cohesion"]["menisci"], chi=case["cohesion"]["meniscusChi"])
     return engine

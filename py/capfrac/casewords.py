@@ -2,26 +2,34 @@
 
 import re
 
-#: Attributes of ``GasInvasionEngine`` that take the value of a key as it is: attribute -> key.
+#: Attributes of both engines of gas that take the value of a key as it is: attribute -> key.
 GAS = {
-    "interfacialTension": "gas.interfacialTension", "entryLaw": "gas.entryLaw", "trapping": "gas.trapping",
-    "imbibition": "gas.imbibition", "snapOff": "gas.snapOff", "filmConductance": "gas.filmConductance",
-    "gasLaw": "gas.law", "gasMolarMass": "gas.molarMass", "gasTemperature": "gas.temperature",
-    "gasDeviation": "gas.deviation", "pressureDatum": "gas.datum", "gasDensity": "gas.gasDensity",
-    "fluidDensity": "gas.waterDensity", "gasViscosity": "gas.viscosity", "gasControl": "supply.control",
+    "interfacialTension": "gas.interfacialTension", "entryLaw": "gas.entryLaw",
+    "filmConductance": "gas.filmConductance", "gasLaw": "gas.law", "gasMolarMass": "gas.molarMass",
+    "gasTemperature": "gas.temperature", "gasDeviation": "gas.deviation", "pressureDatum": "gas.datum",
+    "gasDensity": "gas.gasDensity", "fluidDensity": "gas.waterDensity", "gasControl": "supply.control",
     "gasRate": "supply.rate", "reservoirVolume": "supply.reservoirVolume", "historyInterval": "supply.historyInterval",
-    "waterFlow": "water.flow", "viscosity": "water.viscosity", "bulkModulus": "water.bulkModulus",
-    "conductanceFactor": "water.conductanceFactor", "poreMode": "network.poreMode",
-    "mergeTolerance": "network.mergeTolerance", "closedPore": "network.closedPore",
+    "poreMode": "network.poreMode", "mergeTolerance": "network.mergeTolerance",
     "openingThreshold": "network.openingThreshold", "checkInvariants": "network.checkInvariants",
     "unbalancedTolerance": "ramp.unbalanced", "minLevelSteps": "ramp.minLevelSteps",
-    "maxLevelSteps": "ramp.maxLevelSteps", "invasionInterval": "ramp.invasionInterval",
+    "maxLevelSteps": "ramp.maxLevelSteps",
+}
+#: Those of ``GasInvasionEngine`` alone, whose water is drained.
+DRAINED = {
+    "trapping": "gas.trapping", "imbibition": "gas.imbibition", "snapOff": "gas.snapOff",
+    "invasionInterval": "ramp.invasionInterval",
+}
+#: Those of ``ViscousInvasionEngine`` alone, whose water is solved for.
+VISCOUS = {
+    "viscosity": "water.viscosity", "bulkModulus": "water.bulkModulus", "gasViscosity": "gas.viscosity",
+    "conductanceFactor": "water.conductanceFactor", "closedPore": "network.closedPore",
 }
 #: Fields of :class:`capfrac.sediment.Sediment` that do.
 SEDIMENT = {name: f"grains.{name}" for name in (
     "seed", "density", "normalStiffness", "shearStiffness", "friction", "wallFriction", "aspect")}
 #: What stands for a key in another form (unit, place, name of an argument).
 _OTHERS = {
+    "waterFlow": "water.flow",
     "contactAngle": "gas.contactAngle", "gasTable": "gas.table", "gravity": "gas.gravity",
     "pressureProgram": "supply.program", "pressureIncrement": "ramp.increment", "maxPressure": "ramp.max",
     "inletWall": "inlet.wall", "outletWall": "inlet.outlet", "inletPoints": "inlet.points", "inletFrom": "inlet.from",
@@ -30,7 +38,7 @@ _OTHERS = {
     "stressY": "stress.vertical", "tensileStrength": "cohesion.tensileStrength",
     "shearStrength": "cohesion.shearStrength", "chi": "cohesion.meniscusChi",
 }
-KEYS = {**GAS, **SEDIMENT, **_OTHERS}
+KEYS = {**GAS, **DRAINED, **VISCOUS, **SEDIMENT, **_OTHERS}
 
 # A word that is English, too, is a name only where it has a value.
 _UNMISTAKABLE = "|".join(name for name in KEYS if not name.islower())

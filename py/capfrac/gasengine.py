@@ -9,8 +9,10 @@ from capfrac.values import asFloat, asInt, shown
 
 
 def startInjection(start, increment, max=None, pores=0, wall="bottom", outlet="top", stretch=None, points=(),
-                   waterPressure=0.0, **attributes):
-    """Put a ``GasInvasionEngine`` (label ``gas``) into the current scene and prepare it; returns the engine.
+                   waterPressure=0.0, waterFlow="drained", **attributes):
+    """Put an engine of gas (label ``gas``) into the current scene and prepare it; returns the engine.
+
+    A ``GasInvasionEngine``, whose water is drained; with ``waterFlow="solved"`` a ``ViscousInvasionEngine``.
 
     ``start``, ``increment``, ``max``: the ramp of the capillary pressure [Pa]; ``max`` says nothing to a program, a
     rate or a reservoir and may then be left out. The inlet is ``pores`` neighbouring pores around the middle of
@@ -18,12 +20,11 @@ def startInjection(start, increment, max=None, pores=0, wall="bottom", outlet="t
     ``points`` [m]. All other attributes of the engine can be given by name. Raises :class:`CaseError` naming each argument that is impossible, and
     :class:`SceneError` for a scene that cannot be followed (RuntimeError of the engine); the scene then is as before.
     """
-    from yade.wrapper import GasInvasionEngine
-
+    kind = engineOfGas(waterFlow)
     sediment.engine("servo")  # a scene without one is refused before anything is made
     ramp = _numbers(start=start, increment=increment, max=start if max is None else max, waterPressure=waterPressure)
     pores, stretch, points = _checkedInlet(pores, stretch, points)
-    gas = madeEngine(GasInvasionEngine, **{
+    gas = madeEngine(kind, **{
         "label": "gas", "gasPressure": ramp["waterPressure"] + ramp["start"], "pressureIncrement": ramp["increment"],
         "waterPressure": ramp["waterPressure"], "maxPressure": ramp["waterPressure"] + ramp["max"], "inletWall": wall,
         "outletWall": outlet, **attributes})
@@ -38,6 +39,16 @@ def startInjection(start, increment, max=None, pores=0, wall="bottom", outlet="t
     except RuntimeError as problem:
         raise SceneError(str(problem)) from None
     return sediment.insertFluid(gas)
+
+
+def engineOfGas(waterFlow):
+    """The class of the engine whose water is ``"drained"`` or ``"solved"`` for. Raises :class:`CaseError`."""
+    from yade.wrapper import GasInvasionEngine, ViscousInvasionEngine
+
+    kinds = {"drained": GasInvasionEngine, "solved": ViscousInvasionEngine}
+    if waterFlow not in kinds:
+        raise CaseError(f"waterFlow = {shown(waterFlow)}, allowed: 'drained', 'solved'")
+    return kinds[waterFlow]
 
 
 def _numbers(**values):

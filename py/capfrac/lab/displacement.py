@@ -65,13 +65,13 @@ def _corner(run, name, capillaryNumber, viscosityRatio, tension, viscosity, step
 
 
 def startGas(tension, viscosity, gasViscosity, control="rate", pressure=0.0, **attributes):
-    """``GasInvasionEngine`` with solved water as the only engine of the scene, prepared: grains stand still. The inlet is the floor, the outlet the top; returns it."""
+    """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. The inlet is the floor, the outlet the top; returns it."""
     from yade import O
-    from yade.wrapper import GasInvasionEngine
+    from yade.wrapper import ViscousInvasionEngine
 
     walls = sediment.wallBodies()
-    gas = GasInvasionEngine(**{**dict(
-        label="gas", waterFlow="solved", gasLaw="ideal", gasTemperature=_TEMPERATURE, gasMolarMass=_MOLAR_MASS, pressureDatum=DATUM, gasControl=control, gasPressure=pressure,
+    gas = ViscousInvasionEngine(**{**dict(
+        label="gas", gasLaw="ideal", gasTemperature=_TEMPERATURE, gasMolarMass=_MOLAR_MASS, pressureDatum=DATUM, gasControl=control, gasPressure=pressure,
         maxPressure=1e12, interfacialTension=tension, viscosity=viscosity, gasViscosity=gasViscosity, inletWall="bottom", outletWall="top",
         inletFrom=walls["left"].state.pos[0], inletTo=walls["right"].state.pos[0]), **attributes})
     O.engines = [gas]

@@ -3,11 +3,13 @@
 
 /// The pores along a wall.
 
-#include "SceneReader.hpp"
+#include "Domains.hpp"
 
-#include "../network/Domains.hpp"
+#include "../geometry/VoidGeometry.hpp"
 
-namespace yade {
+#include <string>
+
+namespace capfrac {
 
 /// left, right, bottom or top.
 std::string wallName(int wall);
@@ -21,15 +23,15 @@ std::vector<int> wallsFromName(const std::string& attribute, const std::string& 
 /// The part of a wall that belongs to one domain, in the coordinate along the wall [m].
 struct WallStretch {
 	int domain = -1;
-	Real from = 0, to = 0;
-	Real middle() const { return 0.5 * (from + to); }
+	double from = 0, to = 0;
+	double middle() const { return 0.5 * (from + to); }
 };
 
 /// The stretches of a wall in the order of the coordinate; neighbouring cells of one domain make one stretch.
 std::vector<WallStretch> wallStretches(
-        const capfrac::Triangulation& mesh, const capfrac::Domains& domains, const SceneReader& reader, int wall);
+        const Triangulation& mesh, const Domains& domains, const std::vector<Disk>& grains, const Box& box, int wall);
 
 /// The cell that holds a point; throws std::invalid_argument where there is none (outside the box).
-int cellAt(const capfrac::Triangulation& mesh, const SceneReader& reader, capfrac::Vec2 point);
+int cellAt(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box, Vec2 point);
 
-} // namespace yade
+} // namespace capfrac

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "Walls.hpp"
-#include "Attributes.hpp"
+#include "Boundary.hpp"
+
+#include "../laws/Options.hpp"
 
 #include <algorithm>
 
-namespace yade {
+namespace capfrac {
 
 namespace {
-	const std::array<std::string, capfrac::nWalls> names { "left", "right", "bottom", "top" };
+	const std::array<std::string, nWalls> names { "left", "right", "bottom", "top" };
 }
 
 std::string wallName(int wall) { return names[wall]; }
@@ -15,8 +16,7 @@ std::string wallName(int wall) { return names[wall]; }
 int wallFromName(const std::string& attribute, const std::string& name)
 {
 	const auto found = std::find(names.begin(), names.end(), name);
-	if (found == names.end())
-		capfrac::refuseAttribute(attribute, "'" + name + "'", "'left', 'right', 'bottom', 'top'");
+	if (found == names.end()) refuseAttribute(attribute, "'" + name + "'", "'left', 'right', 'bottom', 'top'");
 	return static_cast<int>(found - names.begin());
 }
 
@@ -24,24 +24,24 @@ std::vector<int> wallsFromName(const std::string& attribute, const std::string& 
 {
 	if (name == "any") return { 0, 1, 2, 3 };
 	if (std::find(names.begin(), names.end(), name) == names.end())
-		capfrac::refuseAttribute(attribute, "'" + name + "'", "'left', 'right', 'bottom', 'top', 'any'");
+		refuseAttribute(attribute, "'" + name + "'", "'left', 'right', 'bottom', 'top', 'any'");
 	return { wallFromName(attribute, name) };
 }
 
 std::vector<WallStretch> wallStretches(
-        const capfrac::Triangulation& mesh, const capfrac::Domains& domains, const SceneReader& reader, int wall)
+        const Triangulation& mesh, const Domains& domains, const std::vector<Disk>& grains, const Box& box, int wall)
 {
-	const bool flat = wall == capfrac::wallBottom || wall == capfrac::wallTop;
+	const bool flat = wall == wallBottom || wall == wallTop;
 	std::vector<WallStretch> pieces;
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
 		const auto& v = mesh.cells[c].vertex;
 		if (std::find(v.begin(), v.end(), mesh.nGrains + wall) == v.end()) continue;
 		// The part of the wall under a cell: from the foot (or corner) of one neighbour to that of the other.
 		WallStretch piece { domains.ofCell[c], 1e300, -1e300 };
-		for (const auto& corner : capfrac::cellPolygon(mesh, static_cast<int>(c), reader.grains, reader.box)) {
-			if (capfrac::norm(corner - reader.box.foot(wall, corner)) > 0) continue;
-			piece.from = math::min(piece.from, flat ? corner.x : corner.y);
-			piece.to = math::max(piece.to, flat ? corner.x : corner.y);
+		for (const auto& corner : cellPolygon(mesh, static_cast<int>(c), grains, box)) {
+			if (norm(corner - box.foot(wall, corner)) > 0) continue;
+			piece.from = std::min(piece.from, flat ? corner.x : corner.y);
+			piece.to = std::max(piece.to, flat ? corner.x : corner.y);
 		}
 		pieces.push_back(piece);
 	}
@@ -56,19 +56,18 @@ std::vector<WallStretch> wallStretches(
 	return stretches;
 }
 
-int cellAt(const capfrac::Triangulation& mesh, const SceneReader& reader, capfrac::Vec2 point)
+int cellAt(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box, Vec2 point)
 {
 	for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
-		const auto polygon = capfrac::cellPolygon(mesh, static_cast<int>(c), reader.grains, reader.box);
+		const auto polygon = cellPolygon(mesh, static_cast<int>(c), grains, box);
 		bool inside = true;
 		for (std::size_t k = 0; k < polygon.size(); ++k)
-			inside &=
-			        capfrac::cross(polygon[(k + 1) % polygon.size()] - polygon[k], point - polygon[k]) >= 0;
+			inside &= cross(polygon[(k + 1) % polygon.size()] - polygon[k], point - polygon[k]) >= 0;
 		if (inside) return static_cast<int>(c);
 	}
 	std::ostringstream text;
 	text << "(" << point.x << ", " << point.y << ")";
-	capfrac::refuseAttribute("point [m]", text.str(), "a point inside the box");
+	refuseAttribute("point [m]", text.str(), "a point inside the box");
 }
 
-} // namespace yade
+} // namespace capfrac
