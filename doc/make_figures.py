@@ -10,7 +10,11 @@ from pathlib import Path
 from capfrac import figures, snapshot
 
 #: The two moments that each picture shows, where the run has them.
-PANELS = {"figure15": ("170Pa", "200Pa"), "figure16": ("initiation", "breakthrough"), "hydrate_ridge_1248C": ("start", "breakthrough")}
+PANELS = {
+    "figure15": ("170Pa", "200Pa"),
+    "figure16": ("initiation", "breakthrough"),
+    "hydrate_ridge_1248C": ("start", "breakthrough"),
+}
 
 
 def pair(runs, name, first, second, path):
@@ -23,7 +27,13 @@ def main(runs):
     folder.mkdir(exist_ok=True)
     for name, (first, second) in PANELS.items():
         taken = [entry["name"] for entry in json.loads((runs / name / "summary.json").read_text())["snapshots"]]
-        pair(runs, name, first if first in taken else "start", second if second in taken else "end", folder / f"{name}.png")
+        pair(
+            runs,
+            name,
+            first if first in taken else "start",
+            second if second in taken else "end",
+            folder / f"{name}.png",
+        )
 
 
 if __name__ == "__main__":

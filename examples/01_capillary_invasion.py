@@ -25,7 +25,9 @@ def main(grainCount=300, seed=1):
     sediment.bond(capillaryStrength=10 * tension)  # sigma_c = 10 gamma/r
     sediment.relax()
 
-    gas = injection.startInjection(start=100, increment=1, max=215, pores=3, interfacialTension=tension, checkInvariants=True)
+    gas = injection.startInjection(
+        start=100, increment=1, max=215, pores=3, interfacialTension=tension, checkInvariants=True
+    )
     start = snapshot.takeSnapshot(gas)
     while not gas.rampDone:
         O.run(500, True)

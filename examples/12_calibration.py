@@ -17,7 +17,9 @@ from capfrac.lab import tables
 
 
 def main(folder=None, grainCount=300, stresses=(20e3, 50e3, 100e3), strain=0.08):
-    found = tables.sensitivity(sediment.Sediment(grainCount=grainCount, rMin=1e-3, seed=1), 2.0, stresses, strain, bondStrength=100e3)
+    found = tables.sensitivity(
+        sediment.Sediment(grainCount=grainCount, rMin=1e-3, seed=1), 2.0, stresses, strain, bondStrength=100e3
+    )
     for parameter, exponents in found["exponent"].items():
         print(parameter, {name: round(n, 2) for name, n in exponents.items()})
     return found

@@ -39,7 +39,8 @@ def same(places, radii):
 
 
 def buildSettled(rMin, nudge=same):
-    """Fill the empty scene with the stored sample, its smallest radius ``rMin`` [m], bonded, at rest under 10 and 8 kPa.
+    """Fill the empty scene with the stored sample, its smallest radius ``rMin`` [m], bonded, at rest under 10 and 8
+    kPa.
 
     Lengths and forces go with ``rMin``: a sample without cohesion has no other length (see sediment.settle).
     ``nudge((x, y), radii)`` returns the places that the grains are given, as arrays.

@@ -63,8 +63,18 @@ def _load(threads):
             f"capfrac's engines cannot be loaded ({problem}); start Python with `capfrac python`, "
             "or YADE with `capfrac yade`, which know where everything is"
         ) from problem
-    names = ["DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D",
-             "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine"]
+    names = [
+        "DiskMat",
+        "WallMat",
+        "Ip2_DiskMat_DiskMat_CohFrictPhys",
+        "Ip2_WallMat_DiskMat_CohFrictPhys",
+        "Ig2_Wall_Sphere_ScGeom6D",
+        "PoreNetworkEngine",
+        "SinglePhaseFlowEngine",
+        "GasInvasionEngine",
+        "MeniscusCohesionEngine",
+        "WallServoEngine",
+    ]
     main = importlib.import_module("__main__")
     for name in names:
         # A YADE session has YADE's classes among its own names: ours belong there too.
@@ -86,9 +96,14 @@ def _loadIntoYade():
 
     _load(1)
     if environment.unasked():
-        warnings.warn(f"YADE was loaded for {environment.threadsInUse()} threads before capfrac, and the same seed gives "
-                      "other results each time; import capfrac first, or start Python with `capfrac python`",
-                      RuntimeWarning, stacklevel=3)
+        warnings.warn(
+            (
+                f"YADE was loaded for {environment.threadsInUse()} threads before capfrac, and the same seed gives "
+                "other results each time; import capfrac first, or start Python with `capfrac python`"
+            ),
+            RuntimeWarning,
+            stacklevel=3,
+        )
 
 
 if _inside_yade():

@@ -24,104 +24,463 @@ SOLVED = "water.flow = 'solved'"
 KEYS = (
     Key("case", "title", str, "-", "", "Title of pictures and reports."),
     Key("case", "description", str, "-", "", "What the case is, where it comes from."),
-    Key("case", "assumptions", list, "-", (), "Texts: each assumption that is not read from data, one a line; kept in the summary."),
-    Key("grains", "count", int, "-", 300, "Number of grains to generate; a pore lies between three.",
-        low=LEAST_GRAINS, high=MOST_GRAINS),
-    positive("grains", "rMin", "m", None, "Smallest grain radius; with a packing, that of the file.",
-             demanded="no grains.packing"),
-    Key("grains", "rMax", float, "m", None, "Largest grain radius, radii are uniform in between; default 2 rMin.", low=0, openLow=True),
-    Key("grains", "seed", int, "-", 1, "Seed of all random numbers; the same seed gives the same run.", low=0,
-        high=LARGEST_SEED, usedWith="no grains.packing"),
-    Key("grains", "packing", str, "-", "", "Instead of generated grains: a CSV file with columns x, y, r [m], beside the case file."),
+    Key(
+        "case",
+        "assumptions",
+        list,
+        "-",
+        (),
+        "Texts: each assumption that is not read from data, one a line; kept in the summary.",
+    ),
+    Key(
+        "grains",
+        "count",
+        int,
+        "-",
+        300,
+        "Number of grains to generate; a pore lies between three.",
+        low=LEAST_GRAINS,
+        high=MOST_GRAINS,
+    ),
+    positive(
+        "grains",
+        "rMin",
+        "m",
+        None,
+        "Smallest grain radius; with a packing, that of the file.",
+        demanded="no grains.packing",
+    ),
+    Key(
+        "grains",
+        "rMax",
+        float,
+        "m",
+        None,
+        "Largest grain radius, radii are uniform in between; default 2 rMin.",
+        low=0,
+        openLow=True,
+    ),
+    Key(
+        "grains",
+        "seed",
+        int,
+        "-",
+        1,
+        "Seed of all random numbers; the same seed gives the same run.",
+        low=0,
+        high=LARGEST_SEED,
+        usedWith="no grains.packing",
+    ),
+    Key(
+        "grains",
+        "packing",
+        str,
+        "-",
+        "",
+        "Instead of generated grains: a CSV file with columns x, y, r [m], beside the case file.",
+    ),
     positive("grains", "density", "kg/m^3", 2650.0, "Density of the grains."),
     positive("grains", "normalStiffness", "N/m", 1e7, "Normal stiffness k_n of a contact."),
     Key("grains", "shearStiffness", float, "N/m", None, "Shear stiffness k_s of a contact; default k_n.", low=0),
     notNegative("grains", "friction", "-", 0.5, "Coefficient of friction between grains."),
     notNegative("grains", "wallFriction", "-", 0.0, "Coefficient of friction between grains and walls."),
-    positive("grains", "aspect", "-", 1.0, "Height over width of the settled sample, about.",
-             usedWith="no grains.packing"),
+    positive(
+        "grains", "aspect", "-", 1.0, "Height over width of the settled sample, about.", usedWith="no grains.packing"
+    ),
     positive("stress", "vertical", "Pa", REQUIRED, "Vertical effective stress sigma'_V."),
     positive("stress", "horizontal", "Pa", REQUIRED, "Horizontal effective stress sigma'_H."),
-    notNegative("cohesion", "chi", "-", 0.0, "Bond strength that follows the grain size: sigma_c = tau_c = chi gamma / r."),
-    notNegative("cohesion", "tensileStrength", "Pa", 0.0, "Part of the tensile strength sigma_c that does not depend on grain size."),
-    notNegative("cohesion", "shearStrength", "Pa", 0.0, "Part of the shear strength tau_c that does not depend on grain size."),
-    Key("cohesion", "menisci", str, "-", "none", "Menisci that pull where gas and water meet: none, of constant force, or pendular bridges.", choices=("none", "constant", "bridge")),
-    positive("cohesion", "meniscusChi", "-", 10.0, "Strength of menisci of constant force, chi in sigma_c = chi gamma "
-             "/ r.", usedWith="cohesion.menisci = 'constant'"),
+    notNegative(
+        "cohesion", "chi", "-", 0.0, "Bond strength that follows the grain size: sigma_c = tau_c = chi gamma / r."
+    ),
+    notNegative(
+        "cohesion",
+        "tensileStrength",
+        "Pa",
+        0.0,
+        "Part of the tensile strength sigma_c that does not depend on grain size.",
+    ),
+    notNegative(
+        "cohesion", "shearStrength", "Pa", 0.0, "Part of the shear strength tau_c that does not depend on grain size."
+    ),
+    Key(
+        "cohesion",
+        "menisci",
+        str,
+        "-",
+        "none",
+        "Menisci that pull where gas and water meet: none, of constant force, or pendular bridges.",
+        choices=("none", "constant", "bridge"),
+    ),
+    positive(
+        "cohesion",
+        "meniscusChi",
+        "-",
+        10.0,
+        "Strength of menisci of constant force, chi in sigma_c = chi gamma / r.",
+        usedWith="cohesion.menisci = 'constant'",
+    ),
     positive("gas", "interfacialTension", "N/m", 0.05, "Interfacial tension gamma of gas and water."),
     Key("gas", "contactAngle", float, "degrees", 0.0, "Contact angle through the water, below 90.", low=0, high=89.9),
-    Key("gas", "entryLaw", str, "-", "inscribedSphere", "Law of the entry pressure.", choices=("inscribedSphere", "mayerStowePrincen")),
-    Key("gas", "trapping", bool, "-", False, "Whether water that is cut off from the outlet stays (true) or drains by "
-        "films (false); solved water stays.", usedWith="water.flow = 'drained'"),
-    Key("gas", "law", str, "-", "incompressible", "Equation of state; a rate or a reservoir needs a compressible one.", choices=("incompressible", "ideal", "tabulated")),
-    positive("gas", "molarMass", "kg/mol", 0.016043, "Molar mass of the gas; methane.",
-             usedWith="gas.law != 'tabulated'"),
+    Key(
+        "gas",
+        "entryLaw",
+        str,
+        "-",
+        "inscribedSphere",
+        "Law of the entry pressure.",
+        choices=("inscribedSphere", "mayerStowePrincen"),
+    ),
+    Key(
+        "gas",
+        "trapping",
+        bool,
+        "-",
+        False,
+        "Whether water that is cut off from the outlet stays (true) or drains by films (false); solved water stays.",
+        usedWith="water.flow = 'drained'",
+    ),
+    Key(
+        "gas",
+        "law",
+        str,
+        "-",
+        "incompressible",
+        "Equation of state; a rate or a reservoir needs a compressible one.",
+        choices=("incompressible", "ideal", "tabulated"),
+    ),
+    positive(
+        "gas", "molarMass", "kg/mol", 0.016043, "Molar mass of the gas; methane.", usedWith="gas.law != 'tabulated'"
+    ),
     positive("gas", "temperature", "K", 293.15, "Temperature of the gas, constant.", usedWith="gas.law != 'tabulated'"),
-    positive("gas", "deviation", "-", 1.0, "Deviation factor Z of the gas, 1 for an ideal one.",
-             usedWith="gas.law != 'tabulated'"),
-    Key("gas", "table", list, "Pa, kg/m^3", (), "Pairs [absolute pressure, density] of the tabulated law, both "
-        "ascending, at least two.", needs="gas.law = 'tabulated'"),
+    positive(
+        "gas",
+        "deviation",
+        "-",
+        1.0,
+        "Deviation factor Z of the gas, 1 for an ideal one.",
+        usedWith="gas.law != 'tabulated'",
+    ),
+    Key(
+        "gas",
+        "table",
+        list,
+        "Pa, kg/m^3",
+        (),
+        "Pairs [absolute pressure, density] of the tabulated law, both ascending, at least two.",
+        needs="gas.law = 'tabulated'",
+    ),
     Key("gas", "datum", float, "Pa", 101325.0, "Absolute pressure of the water: pressures of a case count from it."),
-    Key("gas", "imbibition", bool, "-", False, "Whether water refills pores when the capillary pressure falls, and cut-off gas is trapped."),
-    Key("gas", "snapOff", bool, "-", False, "With imbibition: whether water films snap the gas in throats off; "
-        "contactAngle < 45.", needs="gas.imbibition = true"),
-    notNegative("gas", "filmConductance", "m^3/(Pa s)", 0.0, "With trapping: what trapped water loses by films per "
-                "pressure difference; 0 locks it.", needs="gas.trapping = true or water.flow = 'solved'"),
+    Key(
+        "gas",
+        "imbibition",
+        bool,
+        "-",
+        False,
+        "Whether water refills pores when the capillary pressure falls, and cut-off gas is trapped.",
+    ),
+    Key(
+        "gas",
+        "snapOff",
+        bool,
+        "-",
+        False,
+        "With imbibition: whether water films snap the gas in throats off; contactAngle < 45.",
+        needs="gas.imbibition = true",
+    ),
+    notNegative(
+        "gas",
+        "filmConductance",
+        "m^3/(Pa s)",
+        0.0,
+        "With trapping: what trapped water loses by films per pressure difference; 0 locks it.",
+        needs="gas.trapping = true or water.flow = 'solved'",
+    ),
     notNegative("gas", "waterDensity", "kg/m^3", 0.0, "Density of the water; 0 is weightless.", usedWith="gas.gravity"),
-    notNegative("gas", "gasDensity", "kg/m^3", 0.0, "Density of the gas as far as its weight goes, constant; 0 is "
-                "weightless.", usedWith="gas.gravity"),
-    Key("gas", "gravity", list, "m/s^2", (0.0, 0.0), "Acceleration of gravity [x, y] on water and gas (not on the "
-        "grains); pressures are those at the inlet.", needs="gas.waterDensity or gas.gasDensity"),
+    notNegative(
+        "gas",
+        "gasDensity",
+        "kg/m^3",
+        0.0,
+        "Density of the gas as far as its weight goes, constant; 0 is weightless.",
+        usedWith="gas.gravity",
+    ),
+    Key(
+        "gas",
+        "gravity",
+        list,
+        "m/s^2",
+        (0.0, 0.0),
+        "Acceleration of gravity [x, y] on water and gas (not on the grains); pressures are those at the inlet.",
+        needs="gas.waterDensity or gas.gasDensity",
+    ),
     positive("gas", "viscosity", "Pa s", 1.1e-5, "Viscosity of the gas; methane.", usedWith=SOLVED),
-    Key("water", "flow", str, "-", "drained", "Drained: water at a constant pressure that gives way at once; solved: viscous, compressible, flows to the outlet.", choices=("drained", "solved")),
+    Key(
+        "water",
+        "flow",
+        str,
+        "-",
+        "drained",
+        (
+            "Drained: water at a constant pressure that gives way at once; solved: viscous, compressible, flows to the"
+            " outlet."
+        ),
+        choices=("drained", "solved"),
+    ),
     positive("water", "viscosity", "Pa s", 1e-3, "Viscosity of the water.", usedWith=SOLVED),
     positive("water", "bulkModulus", "Pa", 2.2e9, "Bulk modulus of the water.", usedWith=SOLVED),
     positive("water", "conductanceFactor", "-", 1.0, "Factor of all conductances of throats.", usedWith=SOLVED),
-    Key("inlet", "wall", str, "-", "bottom", "Wall with the inlet.", choices=("left", "right", "bottom", "top"),
-        usedWith="no inlet.points and no inlet.middle"),
-    Key("inlet", "outlet", str, "-", "top", "Wall where the water leaves, or any for all four; gas there has broken through.", choices=("left", "right", "bottom", "top", "any")),
-    Key("inlet", "pores", int, "-", 0, "Number of neighbouring pores along the wall that are the inlet, around its middle.", low=0),
+    Key(
+        "inlet",
+        "wall",
+        str,
+        "-",
+        "bottom",
+        "Wall with the inlet.",
+        choices=("left", "right", "bottom", "top"),
+        usedWith="no inlet.points and no inlet.middle",
+    ),
+    Key(
+        "inlet",
+        "outlet",
+        str,
+        "-",
+        "top",
+        "Wall where the water leaves, or any for all four; gas there has broken through.",
+        choices=("left", "right", "bottom", "top", "any"),
+    ),
+    Key(
+        "inlet",
+        "pores",
+        int,
+        "-",
+        0,
+        "Number of neighbouring pores along the wall that are the inlet, around its middle.",
+        low=0,
+    ),
     Key("inlet", "whole", bool, "-", False, "Instead of pores: whether the inlet is the whole wall."),
-    Key("inlet", "from", float, "m", None, "Instead of pores: begin of the inlet, from the left (lower) end of its wall.", low=0),
-    Key("inlet", "to", float, "m", None, "Instead of pores: end of the inlet, from the left (lower) end of its wall; up to "
-        "a tenth beyond the wall, which moves while the sample is prepared, is the wall's end.", low=0),
-    Key("inlet", "points", list, "m", (), "Instead of a stretch of wall: points [x, y] from the lower left corner of the box; the pores that hold them."),
-    Key("inlet", "middle", float, "m", None, "Instead of a stretch of wall: the pores within this distance of the middle of the box (that hold the middle or one of 24 points on three circles).", low=0),
-    notNegative("ramp", "start", "Pa", None, "Capillary pressure p_g - p_w at which the ramp begins, a reservoir is "
-                "filled, or a rate sets in (then default 0).", demanded="supply.control != 'rate'"),
-    positive("ramp", "increment", "Pa", None, "Step of the ramp or program, taken whenever the grains are at rest; "
-             "with a rate, of the pressure between the levels on record (then default 0.05 gamma / mean radius, about "
-             "a hundredth of the pressure at which gas percolates).", demanded="supply.control = 'pressure'"),
-    positive("ramp", "max", "Pa", None, "Capillary pressure at which the ramp ends; with a rate or a reservoir, where "
-             "given, at which the run ends.", demanded="supply.control = 'pressure' and no supply.program",
-             usedWith="no supply.program"),
-    Key("ramp", "endAt", str, "-", None, "What ends the run: the ramp's end, the gas at the outlet, or the end of the "
-        "pressure level at which it came there, when the grains have answered; default max, "
-        "but breakthrough with a rate and none of ramp.max, supply.maxMass, supply.maxTime.",
-        choices=("max", "breakthrough", "rest")),
-    positive("ramp", "maxExtension", "-", 0.3, "Growth of the box, relative to its width and height, at which the sample counts as come apart and the run ends."),
-    positive("ramp", "unbalanced", "-", 1e-3, "Mean resultant force on the grains over the mean contact force, below which they are at rest."),
+    Key(
+        "inlet",
+        "from",
+        float,
+        "m",
+        None,
+        "Instead of pores: begin of the inlet, from the left (lower) end of its wall.",
+        low=0,
+    ),
+    Key(
+        "inlet",
+        "to",
+        float,
+        "m",
+        None,
+        (
+            "Instead of pores: end of the inlet, from the left (lower) end of its wall; up to "
+            "a tenth beyond the wall, which moves while the sample is prepared, is the wall's end."
+        ),
+        low=0,
+    ),
+    Key(
+        "inlet",
+        "points",
+        list,
+        "m",
+        (),
+        "Instead of a stretch of wall: points [x, y] from the lower left corner of the box; the pores that hold them.",
+    ),
+    Key(
+        "inlet",
+        "middle",
+        float,
+        "m",
+        None,
+        (
+            "Instead of a stretch of wall: the pores within this distance of the middle of the box (that hold the"
+            " middle or one of 24 points on three circles)."
+        ),
+        low=0,
+    ),
+    notNegative(
+        "ramp",
+        "start",
+        "Pa",
+        None,
+        (
+            "Capillary pressure p_g - p_w at which the ramp begins, a reservoir is "
+            "filled, or a rate sets in (then default 0)."
+        ),
+        demanded="supply.control != 'rate'",
+    ),
+    positive(
+        "ramp",
+        "increment",
+        "Pa",
+        None,
+        (
+            "Step of the ramp or program, taken whenever the grains are at rest; "
+            "with a rate, of the pressure between the levels on record (then default 0.05 gamma / mean radius, about "
+            "a hundredth of the pressure at which gas percolates)."
+        ),
+        demanded="supply.control = 'pressure'",
+    ),
+    positive(
+        "ramp",
+        "max",
+        "Pa",
+        None,
+        "Capillary pressure at which the ramp ends; with a rate or a reservoir, where given, at which the run ends.",
+        demanded="supply.control = 'pressure' and no supply.program",
+        usedWith="no supply.program",
+    ),
+    Key(
+        "ramp",
+        "endAt",
+        str,
+        "-",
+        None,
+        (
+            "What ends the run: the ramp's end, the gas at the outlet, or the end of the "
+            "pressure level at which it came there, when the grains have answered; default max, "
+            "but breakthrough with a rate and none of ramp.max, supply.maxMass, supply.maxTime."
+        ),
+        choices=("max", "breakthrough", "rest"),
+    ),
+    positive(
+        "ramp",
+        "maxExtension",
+        "-",
+        0.3,
+        (
+            "Growth of the box, relative to its width and height, at which the sample counts as come apart and the run"
+            " ends."
+        ),
+    ),
+    positive(
+        "ramp",
+        "unbalanced",
+        "-",
+        1e-3,
+        "Mean resultant force on the grains over the mean contact force, below which they are at rest.",
+    ),
     Key("ramp", "minLevelSteps", int, "-", 100, "Time steps that a pressure level lasts at least.", low=1),
-    Key("ramp", "maxLevelSteps", int, "-", 20000, "Time steps after which the pressure rises though the grains still move.", low=1),
-    Key("ramp", "invasionInterval", int, "-", 0, "Time steps between one invaded pore and the next; 0: whole avalanches while the grains stand still.", low=0),
-    Key("supply", "control", str, "-", "pressure", "What is prescribed: the pressure (ramp or program), the rate of gas, or a reservoir of gas.", choices=("pressure", "rate", "reservoir")),
-    Key("supply", "program", list, "Pa", (), "Instead of the ramp: turning points of the capillary pressure, up or "
-        "down, approached in steps of ramp.increment.", needs="supply.control = 'pressure'"),
+    Key(
+        "ramp",
+        "maxLevelSteps",
+        int,
+        "-",
+        20000,
+        "Time steps after which the pressure rises though the grains still move.",
+        low=1,
+    ),
+    Key(
+        "ramp",
+        "invasionInterval",
+        int,
+        "-",
+        0,
+        "Time steps between one invaded pore and the next; 0: whole avalanches while the grains stand still.",
+        low=0,
+    ),
+    Key(
+        "supply",
+        "control",
+        str,
+        "-",
+        "pressure",
+        "What is prescribed: the pressure (ramp or program), the rate of gas, or a reservoir of gas.",
+        choices=("pressure", "rate", "reservoir"),
+    ),
+    Key(
+        "supply",
+        "program",
+        list,
+        "Pa",
+        (),
+        (
+            "Instead of the ramp: turning points of the capillary pressure, up or "
+            "down, approached in steps of ramp.increment."
+        ),
+        needs="supply.control = 'pressure'",
+    ),
     notNegative("supply", "rate", "kg/s", 0.0, "Mass of gas per time.", needs="supply.control = 'rate'"),
-    notNegative("supply", "reservoirVolume", "m^3", 0.0, "Volume of gas upstream of the inlet, filled at ramp.start; "
-                "with a rate, its dead volume.", needs="gas.law != 'incompressible'"),
-    Key("supply", "maxMass", float, "kg", None, "Mass supplied since the start that ends the run.", low=0, openLow=True,
-        needs="gas.law != 'incompressible'"),
-    Key("supply", "maxTime", float, "s", None, "Time since the start of the injection that ends the run.", low=0, openLow=True),
-    Key("supply", "historyInterval", int, "-", 100, "Time steps between two rows of history.csv; 0: a row per level.", low=0),
+    notNegative(
+        "supply",
+        "reservoirVolume",
+        "m^3",
+        0.0,
+        "Volume of gas upstream of the inlet, filled at ramp.start; with a rate, its dead volume.",
+        needs="gas.law != 'incompressible'",
+    ),
+    Key(
+        "supply",
+        "maxMass",
+        float,
+        "kg",
+        None,
+        "Mass supplied since the start that ends the run.",
+        low=0,
+        openLow=True,
+        needs="gas.law != 'incompressible'",
+    ),
+    Key(
+        "supply",
+        "maxTime",
+        float,
+        "s",
+        None,
+        "Time since the start of the injection that ends the run.",
+        low=0,
+        openLow=True,
+    ),
+    Key(
+        "supply",
+        "historyInterval",
+        int,
+        "-",
+        100,
+        "Time steps between two rows of history.csv; 0: a row per level.",
+        low=0,
+    ),
     Key("network", "poreMode", str, "-", "domain", "What a pore is.", choices=("domain", "triangle")),
     notNegative("network", "mergeTolerance", "-", 1e-3, "Gap beyond which grains do not touch, in smallest radii."),
-    positive("network", "closedPore", "-", 1e-3, "A pore smaller than this share of the smallest grain's area is "
-             "joined to its neighbour across the widest throat.", usedWith=SOLVED),
-    positive("network", "openingThreshold", "-", 0.01, "Growth of a gap, in mean radii, beyond which its throat counts as opened."),
+    positive(
+        "network",
+        "closedPore",
+        "-",
+        1e-3,
+        (
+            "A pore smaller than this share of the smallest grain's area is "
+            "joined to its neighbour across the widest throat."
+        ),
+        usedWith=SOLVED,
+    ),
+    positive(
+        "network",
+        "openingThreshold",
+        "-",
+        0.01,
+        "Growth of a gap, in mean radii, beyond which its throat counts as opened.",
+    ),
     Key("network", "checkInvariants", bool, "-", True, "Check the bookkeeping of gas and water after each avalanche."),
-    Key("output", "pressures", list, "Pa", (), "Capillary pressures at which snapshots are taken, besides start, first opened throat (initiation), breakthrough and end."),
-    Key("output", "pictures", str, "-", "all", "Which pictures to draw: one of each snapshot, of the last one only, or none at all.", choices=("all", "end", "none")),
+    Key(
+        "output",
+        "pressures",
+        list,
+        "Pa",
+        (),
+        (
+            "Capillary pressures at which snapshots are taken, besides start, first opened throat (initiation),"
+            " breakthrough and end."
+        ),
+    ),
+    Key(
+        "output",
+        "pictures",
+        str,
+        "-",
+        "all",
+        "Which pictures to draw: one of each snapshot, of the last one only, or none at all.",
+        choices=("all", "end", "none"),
+    ),
     Key("output", "fields", bool, "-", True, "Whether to write fields for ParaView with each snapshot."),
 )
 
@@ -142,14 +501,17 @@ def readCase(nameOrPath, overrides=()):
     is ignored with a warning.
     """
     if not isinstance(nameOrPath, (str, os.PathLike)):
-        raise CaseError(f"case = {shown(nameOrPath)}, allowed: the name of a shipped case, a path, or a dict of "
-                        "sections")
+        raise CaseError(
+            f"case = {shown(nameOrPath)}, allowed: the name of a shipped case, a path, or a dict of sections"
+        )
     path = shippedCases().get(str(nameOrPath), Path(nameOrPath))
     try:
         raw = tomlfiles.readToml(path)
     except OSError as problem:
         shipped = ", ".join(shippedCases())
-        raise CaseError(f"the case '{nameOrPath}' cannot be read ({problem.strerror}); shipped cases: {shipped}") from None
+        raise CaseError(
+            f"the case '{nameOrPath}' cannot be read ({problem.strerror}); shipped cases: {shipped}"
+        ) from None
     used = _used(raw)
     problems = []
     for override in overrides:

@@ -37,8 +37,13 @@ def _overlaps(case):
     grains = case["grains"]
     if not grains["packing"] and grains["rMin"] is not None:
         for name in ("vertical", "horizontal"):
-            yield from samplechecks.overlapAmiss(f"stress.{name}", case["stress"][name], grains["rMin"],
-                                                 grains["rMax"] or 2 * grains["rMin"], grains["normalStiffness"])
+            yield from samplechecks.overlapAmiss(
+                f"stress.{name}",
+                case["stress"][name],
+                grains["rMin"],
+                grains["rMax"] or 2 * grains["rMin"],
+                grains["normalStiffness"],
+            )
 
 
 def _stresses(case):
@@ -53,8 +58,10 @@ def _inlet(case):
     stretch = inlet["from"] is not None or inlet["to"] is not None
     ways = [bool(inlet["pores"]), inlet["whole"], stretch, bool(inlet["points"]), inlet["middle"] is not None]
     if sum(ways) != 1:
-        yield ("no inlet or several; give one of inlet.pores, inlet.whole, inlet.from with inlet.to, "
-               "inlet.points, inlet.middle")
+        yield (
+            "no inlet or several; give one of inlet.pores, inlet.whole, inlet.from with inlet.to, "
+            "inlet.points, inlet.middle"
+        )
     if stretch and (inlet["from"] is None or inlet["to"] is None or inlet["to"] <= inlet["from"]):
         yield f"inlet.from = {inlet['from']}, inlet.to = {inlet['to']}; allowed: both given, from < to"
 
@@ -92,8 +99,10 @@ def _runEnds(case):
     ends = [("ramp", "max"), ("supply", "maxMass"), ("supply", "maxTime")]
     endless = all(case[section][name] is None for section, name in ends)
     if case["supply"]["control"] == "rate" and case["ramp"]["endAt"] == "max" and endless:
-        yield ("ramp.endAt = 'max', allowed: 'breakthrough' with supply.control = 'rate' and none of "
-               f"{', '.join(map('.'.join, ends))}: nothing would end the run")
+        yield (
+            "ramp.endAt = 'max', allowed: 'breakthrough' with supply.control = 'rate' and none of "
+            f"{', '.join(map('.'.join, ends))}: nothing would end the run"
+        )
 
 
 def _gasTable(case):
@@ -101,8 +110,10 @@ def _gasTable(case):
     pairs = [_numbersOf(pair, 2) for pair in table]
     for pair, found in zip(table, pairs):
         if found is None or min(found) <= 0:
-            yield (f"gas.table holds {shown(pair)}, allowed: pairs [absolute pressure in Pa, density in kg/m^3], "
-                   "finite and > 0")
+            yield (
+                f"gas.table holds {shown(pair)}, allowed: pairs [absolute pressure in Pa, density in kg/m^3], "
+                "finite and > 0"
+            )
     if all(pairs) and any(b <= a for one, next in zip(pairs, pairs[1:]) for a, b in zip(one, next)):
         yield f"gas.table = {shown(table)}, allowed: ascending pressures and densities"
 
@@ -128,8 +139,10 @@ def _program(case):
 def _control(case):
     control, law = case["supply"]["control"], case["gas"]["law"]
     if control != "pressure" and law == "incompressible":
-        yield (f"supply.control = '{control}', allowed: 'pressure' with gas.law = 'incompressible', as no pressure "
-               "follows from the amount of a gas that does not yield; set gas.law = 'ideal' or 'tabulated'")
+        yield (
+            f"supply.control = '{control}', allowed: 'pressure' with gas.law = 'incompressible', as no pressure "
+            "follows from the amount of a gas that does not yield; set gas.law = 'ideal' or 'tabulated'"
+        )
 
 
 def _supplied(case):
@@ -148,8 +161,10 @@ def _entryLaw(case):
 def _snapOff(case):
     gas = case["gas"]
     if gas["snapOff"] and gas["contactAngle"] >= 45:
-        yield (f"gas.contactAngle = {gas['contactAngle']}, allowed: < 45 [degrees] with gas.snapOff "
-               "(films in corners of 45 degrees swell while both angles are below 90)")
+        yield (
+            f"gas.contactAngle = {gas['contactAngle']}, allowed: < 45 [degrees] with gas.snapOff "
+            "(films in corners of 45 degrees swell while both angles are below 90)"
+        )
 
 
 def _solvedWater(case):
@@ -157,8 +172,10 @@ def _solvedWater(case):
     if case["water"]["flow"] != "solved":
         return
     if gas["law"] == "incompressible":
-        yield ("gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved', as the pressure "
-               "of the gas follows from its mass")
+        yield (
+            "gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved', as the pressure "
+            "of the gas follows from its mass"
+        )
     if gas["imbibition"]:
         yield "gas.imbibition = true, allowed: false with water.flow = 'solved': gas does not recede"
 
@@ -188,6 +205,27 @@ def _numbersOf(values, count):
     return None if None in found else found
 
 
-CHECKS = (_radii, _aspect, _overlaps, _stresses, _inlet, _inletWalls, _inletPoints, _rampEnd, _levels, _runEnds,
-          _gasTable, _gasTableSuffices, _gasDatum, _program, _control, _supplied, _entryLaw, _snapOff, _solvedWater,
-          _gravity, _pressures, _assumptions)
+CHECKS = (
+    _radii,
+    _aspect,
+    _overlaps,
+    _stresses,
+    _inlet,
+    _inletWalls,
+    _inletPoints,
+    _rampEnd,
+    _levels,
+    _runEnds,
+    _gasTable,
+    _gasTableSuffices,
+    _gasDatum,
+    _program,
+    _control,
+    _supplied,
+    _entryLaw,
+    _snapOff,
+    _solvedWater,
+    _gravity,
+    _pressures,
+    _assumptions,
+)

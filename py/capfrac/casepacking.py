@@ -54,18 +54,23 @@ def _checked(path, content, rMin, rMax, count):
     r = table.values["r"]
     low, high = int(r.argmin()), int(r.argmax())
     if r[high] > MAX_SIZE_RATIO * r[low]:
-        raise CaseError(f"{table.where(high)}: r = {r[high]:g} m, {r[high] / r[low]:.3g} times that of line "
-                        f"{table.lines[low]}, {r[low]:g} m; allowed: up to {MAX_SIZE_RATIO} times")
+        raise CaseError(
+            f"{table.where(high)}: r = {r[high]:g} m, {r[high] / r[low]:.3g} times that of line "
+            f"{table.lines[low]}, {r[low]:g} m; allowed: up to {MAX_SIZE_RATIO} times"
+        )
     told = _compare(table, low, "rMin", rMin, "smallest")
     if rMax is not None and (rMin is None or rMax != 2 * rMin):  # else it is the default
         told += _compare(table, high, "rMax", rMax, "largest")
     if count not in (DEFAULT_COUNT, len(r)):
-        raise CaseError(f"grains.count = {count}, but {table.path} holds {len(r)} grains; "
-                        "allowed: their number, or no grains.count")
+        raise CaseError(
+            f"grains.count = {count}, but {table.path} holds {len(r)} grains; allowed: their number, or no grains.count"
+        )
     _checkPlaces(table)
     if r[high] > BOULDER:
-        told.append(f"{table.where(high)}: r = {r[high]:g} m, a boulder; are the numbers of the file in mm or um? Then "
-                    "write the unit behind the names of its columns, r [mm]")
+        told.append(
+            f"{table.where(high)}: r = {r[high]:g} m, a boulder; are the numbers of the file in mm or um? Then "
+            "write the unit behind the names of its columns, r [mm]"
+        )
     return told
 
 
@@ -77,9 +82,11 @@ def _checkPlaces(table):
     share = math.pi * float(np.sum(r**2)) / area
     if share < LEAST_FILLED:
         far = int(np.argmax(np.hypot(x - np.median(x), y - np.median(y))))
-        raise CaseError(f"{table.path}: the grains fill {share:.2g} of the box around them, allowed: at least "
-                        f"{LEAST_FILLED}; are x and y in another unit than r, or does a grain lie astray? Farthest out "
-                        f"is that of line {table.lines[far]}: x = {x[far]:g} m, y = {y[far]:g} m, r = {r[far]:g} m")
+        raise CaseError(
+            f"{table.path}: the grains fill {share:.2g} of the box around them, allowed: at least "
+            f"{LEAST_FILLED}; are x and y in another unit than r, or does a grain lie astray? Farthest out "
+            f"is that of line {table.lines[far]}: x = {x[far]:g} m, y = {y[far]:g} m, r = {r[far]:g} m"
+        )
 
 
 def _compare(table, row, name, given, word):
@@ -88,11 +95,13 @@ def _compare(table, row, name, given, word):
         return []
     found = float(table.values["r"][row])
     ratio = found / given
-    text = (f"grains.{name} = {given:g} m, but the {word} radius in {table.path} (line {table.lines[row]}) is "
-            f"{found:g} m")
+    text = (
+        f"grains.{name} = {given:g} m, but the {word} radius in {table.path} (line {table.lines[row]}) is {found:g} m"
+    )
     if not 1 / CONTRADICTION <= ratio <= CONTRADICTION:
-        raise CaseError(f"{text}, {ratio:.4g} times that; allowed: about the same, or no grains.{name}; "
-                        f"{_meant(ratio)}")
+        raise CaseError(
+            f"{text}, {ratio:.4g} times that; allowed: about the same, or no grains.{name}; {_meant(ratio)}"
+        )
     if 1 / ROUNDED <= ratio <= ROUNDED:
         return []
     twice = "; are these diameters? Then call the column d" if 1.8 < ratio < 2.2 else ""

@@ -25,23 +25,28 @@ def makeSample(case, say):
         values = packingOf(case).values
         packing = values["x"], values["y"], values["r"]
         count, rMin, rMax = len(packing[2]), float(packing[2].min()), float(packing[2].max())
-    sample = sediment.Sediment(
-        grainCount=count, rMin=rMin, rMax=rMax, **casewords.values(case, casewords.SEDIMENT))
+    sample = sediment.Sediment(grainCount=count, rMin=rMin, rMax=rMax, **casewords.values(case, casewords.SEDIMENT))
     sediment.makeSample(sample, case["stress"]["vertical"], case["stress"]["horizontal"], packing, progress=say)
-    nBonds = sediment.bond(cohesion["chi"] * case["gas"]["interfacialTension"], cohesion["tensileStrength"], cohesion["shearStrength"])
+    nBonds = sediment.bond(
+        cohesion["chi"] * case["gas"]["interfacialTension"], cohesion["tensileStrength"], cohesion["shearStrength"]
+    )
     sediment.relax(progress=say)
     return nBonds
 
 
 def _inletPoints(inlet, walls):
-    left, right, bottom, top = (walls[name].state.pos[axis] for name, axis in (("left", 0), ("right", 0), ("bottom", 1), ("top", 1)))
+    left, right, bottom, top = (
+        walls[name].state.pos[axis] for name, axis in (("left", 0), ("right", 0), ("bottom", 1), ("top", 1))
+    )
     if inlet["middle"] is None:
         return [(left + x, bottom + y) for x, y in inlet["points"]]
     x, y = 0.5 * (left + right), 0.5 * (bottom + top)
     for fine in (1, 2, 4, 8):  # in one sample in a hundred the first 25 points all lie in grains
-        points = [(x, y)] + [(x + r * math.cos(turn), y + r * math.sin(turn))
-                             for r in np.linspace(0, inlet["middle"], 3 * fine + 1)[1:]
-                             for turn in np.arange(8 * fine) * (math.pi / (4 * fine))]
+        points = [(x, y)] + [
+            (x + r * math.cos(turn), y + r * math.sin(turn))
+            for r in np.linspace(0, inlet["middle"], 3 * fine + 1)[1:]
+            for turn in np.arange(8 * fine) * (math.pi / (4 * fine))
+        ]
         if sediment.anyInTheVoid(points):
             break
     return points
@@ -70,9 +75,11 @@ def _inletStretch(inlet, walls):
     low, high = (walls[end].state.pos[0 if end in ("left", "right") else 1] for end in ends)
     length = high - low
     if inlet["to"] > (1 + SHRINKAGE) * length or inlet["from"] >= length:
-        raise CaseError(f"inlet.from = {inlet['from']:g}, inlet.to = {inlet['to']:g} m, allowed: 0 … {length:.6g} m, "
-                        f"the length of the {inlet['wall']} wall, and a little more; the whole wall is "
-                        "inlet.whole = true")
+        raise CaseError(
+            f"inlet.from = {inlet['from']:g}, inlet.to = {inlet['to']:g} m, allowed: 0 … {length:.6g} m, "
+            f"the length of the {inlet['wall']} wall, and a little more; the whole wall is "
+            "inlet.whole = true"
+        )
     return low + inlet["from"], math.inf if inlet["to"] >= length else low + inlet["to"]
 
 
@@ -84,10 +91,20 @@ def startGas(case):
     inlet, gas, ramp, supply = (case[section] for section in ("inlet", "gas", "ramp", "supply"))
     walls = sediment.wallBodies()
     engine = startInjection(
-        ramp["start"], _increment(case), ramp["max"], inlet["pores"], inlet["wall"], inlet["outlet"],
-        _inletStretch(inlet, walls), _inletPoints(inlet, walls), contactAngle=math.radians(gas["contactAngle"]),
-        gasTable=[tuple(map(float, pair)) for pair in gas["table"]], gravity=tuple(gas["gravity"]),
-        pressureProgram=[float(p) for p in supply["program"]], **casewords.values(case, casewords.GAS))
+        ramp["start"],
+        _increment(case),
+        ramp["max"],
+        inlet["pores"],
+        inlet["wall"],
+        inlet["outlet"],
+        _inletStretch(inlet, walls),
+        _inletPoints(inlet, walls),
+        contactAngle=math.radians(gas["contactAngle"]),
+        gasTable=[tuple(map(float, pair)) for pair in gas["table"]],
+        gravity=tuple(gas["gravity"]),
+        pressureProgram=[float(p) for p in supply["program"]],
+        **casewords.values(case, casewords.GAS),
+    )
     if case["cohesion"]["menisci"] != "none":
         addMenisci(case["cohesion"]["menisci"], chi=case["cohesion"]["meniscusChi"])
     return engine

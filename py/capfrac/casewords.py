@@ -4,39 +4,76 @@ import re
 
 #: Attributes of ``GasInvasionEngine`` that take the value of a key as it is: attribute -> key.
 GAS = {
-    "interfacialTension": "gas.interfacialTension", "entryLaw": "gas.entryLaw", "trapping": "gas.trapping",
-    "imbibition": "gas.imbibition", "snapOff": "gas.snapOff", "filmConductance": "gas.filmConductance",
-    "gasLaw": "gas.law", "gasMolarMass": "gas.molarMass", "gasTemperature": "gas.temperature",
-    "gasDeviation": "gas.deviation", "pressureDatum": "gas.datum", "gasDensity": "gas.gasDensity",
-    "fluidDensity": "gas.waterDensity", "gasViscosity": "gas.viscosity", "gasControl": "supply.control",
-    "gasRate": "supply.rate", "reservoirVolume": "supply.reservoirVolume", "historyInterval": "supply.historyInterval",
-    "waterFlow": "water.flow", "viscosity": "water.viscosity", "bulkModulus": "water.bulkModulus",
-    "conductanceFactor": "water.conductanceFactor", "poreMode": "network.poreMode",
-    "mergeTolerance": "network.mergeTolerance", "closedPore": "network.closedPore",
-    "openingThreshold": "network.openingThreshold", "checkInvariants": "network.checkInvariants",
-    "unbalancedTolerance": "ramp.unbalanced", "minLevelSteps": "ramp.minLevelSteps",
-    "maxLevelSteps": "ramp.maxLevelSteps", "invasionInterval": "ramp.invasionInterval",
+    "interfacialTension": "gas.interfacialTension",
+    "entryLaw": "gas.entryLaw",
+    "trapping": "gas.trapping",
+    "imbibition": "gas.imbibition",
+    "snapOff": "gas.snapOff",
+    "filmConductance": "gas.filmConductance",
+    "gasLaw": "gas.law",
+    "gasMolarMass": "gas.molarMass",
+    "gasTemperature": "gas.temperature",
+    "gasDeviation": "gas.deviation",
+    "pressureDatum": "gas.datum",
+    "gasDensity": "gas.gasDensity",
+    "fluidDensity": "gas.waterDensity",
+    "gasViscosity": "gas.viscosity",
+    "gasControl": "supply.control",
+    "gasRate": "supply.rate",
+    "reservoirVolume": "supply.reservoirVolume",
+    "historyInterval": "supply.historyInterval",
+    "waterFlow": "water.flow",
+    "viscosity": "water.viscosity",
+    "bulkModulus": "water.bulkModulus",
+    "conductanceFactor": "water.conductanceFactor",
+    "poreMode": "network.poreMode",
+    "mergeTolerance": "network.mergeTolerance",
+    "closedPore": "network.closedPore",
+    "openingThreshold": "network.openingThreshold",
+    "checkInvariants": "network.checkInvariants",
+    "unbalancedTolerance": "ramp.unbalanced",
+    "minLevelSteps": "ramp.minLevelSteps",
+    "maxLevelSteps": "ramp.maxLevelSteps",
+    "invasionInterval": "ramp.invasionInterval",
 }
 #: Fields of :class:`capfrac.sediment.Sediment` that do.
-SEDIMENT = {name: f"grains.{name}" for name in (
-    "seed", "density", "normalStiffness", "shearStiffness", "friction", "wallFriction", "aspect")}
+SEDIMENT = {
+    name: f"grains.{name}"
+    for name in ("seed", "density", "normalStiffness", "shearStiffness", "friction", "wallFriction", "aspect")
+}
 #: What stands for a key in another form (unit, place, name of an argument).
 _OTHERS = {
-    "contactAngle": "gas.contactAngle", "gasTable": "gas.table", "gravity": "gas.gravity",
-    "pressureProgram": "supply.program", "pressureIncrement": "ramp.increment", "maxPressure": "ramp.max",
-    "inletWall": "inlet.wall", "outletWall": "inlet.outlet", "inletPoints": "inlet.points", "inletFrom": "inlet.from",
-    "inletTo": "inlet.to", "nPores": "inlet.pores", "grainCount": "grains.count", "rMin": "grains.rMin",
-    "rMax": "grains.rMax", "stressV": "stress.vertical", "stressH": "stress.horizontal", "stressX": "stress.horizontal",
-    "stressY": "stress.vertical", "tensileStrength": "cohesion.tensileStrength",
-    "shearStrength": "cohesion.shearStrength", "chi": "cohesion.meniscusChi",
+    "contactAngle": "gas.contactAngle",
+    "gasTable": "gas.table",
+    "gravity": "gas.gravity",
+    "pressureProgram": "supply.program",
+    "pressureIncrement": "ramp.increment",
+    "maxPressure": "ramp.max",
+    "inletWall": "inlet.wall",
+    "outletWall": "inlet.outlet",
+    "inletPoints": "inlet.points",
+    "inletFrom": "inlet.from",
+    "inletTo": "inlet.to",
+    "nPores": "inlet.pores",
+    "grainCount": "grains.count",
+    "rMin": "grains.rMin",
+    "rMax": "grains.rMax",
+    "stressV": "stress.vertical",
+    "stressH": "stress.horizontal",
+    "stressX": "stress.horizontal",
+    "stressY": "stress.vertical",
+    "tensileStrength": "cohesion.tensileStrength",
+    "shearStrength": "cohesion.shearStrength",
+    "chi": "cohesion.meniscusChi",
 }
 KEYS = {**GAS, **SEDIMENT, **_OTHERS}
 
 # A word that is English, too, is a name only where it has a value.
 _UNMISTAKABLE = "|".join(name for name in KEYS if not name.islower())
 _ENGLISH = "|".join(name for name in KEYS if name.islower())
-_NAME = re.compile(rf"(?<![\w.])(?:\w+(?:Engine|Mat)\.)?"
-                   rf"(?:({_UNMISTAKABLE})(?!\w)|({_ENGLISH})(?= (?:\[[^\]]*\] )?= ))")
+_NAME = re.compile(
+    rf"(?<![\w.])(?:\w+(?:Engine|Mat)\.)?" rf"(?:({_UNMISTAKABLE})(?!\w)|({_ENGLISH})(?= (?:\[[^\]]*\] )?= ))"
+)
 
 
 def inCaseWords(text):

@@ -14,9 +14,20 @@ OVER = ("pressure", "time")
 _DASHED = {"color": "0.45", "linewidth": 0.9, "linestyle": (0, (4, 3)), "zorder": 1}
 
 
-def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPressure=math.nan, waterPressure=0.0,
-                       title=None, over="pressure", history=None, breakthroughIter=-1, startTime=0.0,
-                       breakthroughAtStart=False):
+def drawCapillaryCurve(
+    levels,
+    path,
+    events=None,
+    bondCount=None,
+    breakthroughPressure=math.nan,
+    waterPressure=0.0,
+    title=None,
+    over="pressure",
+    history=None,
+    breakthroughIter=-1,
+    startTime=0.0,
+    breakthroughAtStart=False,
+):
     """Draw P_c against saturation, and the opened throats, broken bonds and displacements on the way there.
 
     ``levels`` and ``events`` are the dicts of ``gas.levels()`` and ``gas.events()``; a level that is not ``finished``
@@ -38,8 +49,13 @@ def drawCapillaryCurve(levels, path, events=None, bondCount=None, breakthroughPr
     text, head = titleOf(title, 9.6)
     total = 3.1 + max(0.0, head - 0.3)
     with newFigure((9.6, total)) as figure:
-        grid = {"left": 0.075, "right": 0.985, "bottom": 0.51 / total, "top": 1 - max(head, 0.15) / total,
-                "wspace": 0.33 if bondCount else 0.5}  # a second scale takes room
+        grid = {
+            "left": 0.075,
+            "right": 0.985,
+            "bottom": 0.51 / total,
+            "top": 1 - max(head, 0.15) / total,
+            "wspace": 0.33 if bondCount else 0.5,
+        }  # a second scale takes room
         curve, opening, moving = figure.subplots(1, 3, gridspec_kw=grid)
         word = "breakthrough, here or below" if breakthroughAtStart else "breakthrough"
         _drawCurve(curve, course, levels, (breakthroughPressure - waterPressure) / course.pascal, word)
@@ -71,14 +87,18 @@ class _Course:
         self.pressure = (np.array(levels["pressure"], dtype=float) - water) / self.pascal
         times = [*levels.get("time", ()), *(events["time"] if events and over == "time" else ())]
         self.second, unit = prefix(max(times, default=start) - start, "s")
-        self.label = (f"capillary pressure $P_c$ [{self.unit}]" if over == "pressure" else
-                      f"time since the start [{unit}]")
+        self.label = (
+            f"capillary pressure $P_c$ [{self.unit}]" if over == "pressure" else f"time since the start [{unit}]"
+        )
         self.x = self.pressure if over == "pressure" else self.since(levels["time"])
         states = {name: np.array(levels[name], dtype=float) for name in ("pressure", "gasSaturation", "brokenBonds")}
         self.lineX = self.x
         if history is not None:  # between the levels, too
-            more = {"pressure": history["gasPressure"], "gasSaturation": history["gasSaturation"],
-                    "brokenBonds": history["brokenBonds"]}
+            more = {
+                "pressure": history["gasPressure"],
+                "gasSaturation": history["gasSaturation"],
+                "brokenBonds": history["brokenBonds"],
+            }
             self.lineX = np.append(self.since(history["time"]), self.x)
             order = np.argsort(self.lineX, kind="stable")
             self.lineX = self.lineX[order]
@@ -108,17 +128,36 @@ def _drawCurve(axes, course, levels, breakthrough, word):
     if not len(course.linePressure):
         saySo(axes, "no level was finished")
         return
-    axes.plot(course.lineSaturation, course.linePressure, color=COLOURS["gas"], linewidth=1.2, zorder=2, label="course",
-              marker="." if len(course.linePressure) == 1 else None)
+    axes.plot(
+        course.lineSaturation,
+        course.linePressure,
+        color=COLOURS["gas"],
+        linewidth=1.2,
+        zorder=2,
+        label="course",
+        marker="." if len(course.linePressure) == 1 else None,
+    )
     finished = np.array(levels.get("finished", [True] * len(course.pressure)), dtype=bool)
     rest = np.array(levels["atRest"], dtype=bool)
     saturation = np.array(levels["gasSaturation"], dtype=float)
-    for name, marker, size, fill, chosen in (("grains at rest", "o", 9, COLOURS["dot"], finished & rest),
-                                             ("not at rest", "o", 9, "white", finished & ~rest),
-                                             ("end of the run", "D", 16, "white", ~finished)):
+    for name, marker, size, fill, chosen in (
+        ("grains at rest", "o", 9, COLOURS["dot"], finished & rest),
+        ("not at rest", "o", 9, "white", finished & ~rest),
+        ("end of the run", "D", 16, "white", ~finished),
+    ):
         if chosen.any():
-            axes.scatter(saturation[chosen], course.pressure[chosen], s=size, c=fill, edgecolors=COLOURS["dot"],
-                         linewidths=0.7, marker=marker, zorder=3, clip_on=False, label=name)
+            axes.scatter(
+                saturation[chosen],
+                course.pressure[chosen],
+                s=size,
+                c=fill,
+                edgecolors=COLOURS["dot"],
+                linewidths=0.7,
+                marker=marker,
+                zorder=3,
+                clip_on=False,
+                label=name,
+            )
     if math.isfinite(breakthrough):
         axes.axhline(breakthrough, label=word, **_DASHED)
 
@@ -127,9 +166,15 @@ def _drawOpening(axes, course, events, bondCount):
     axes.set(ylabel="share" if bondCount else "broken bonds")
     label = "broken bonds / bonds" if bondCount else "broken bonds"
     if len(course.lineX):
-        axes.plot(course.lineX, course.lineBroken / (bondCount or 1), color=COLOURS["broken"], linewidth=1.4,
-                  label=label, marker="." if len(course.lineX) == 1 else None,
-                  drawstyle="default" if course.over == "pressure" else "steps-post")
+        axes.plot(
+            course.lineX,
+            course.lineBroken / (bondCount or 1),
+            color=COLOURS["broken"],
+            linewidth=1.4,
+            label=label,
+            marker="." if len(course.lineX) == 1 else None,
+            drawstyle="default" if course.over == "pressure" else "steps-post",
+        )
     most = 1 if bondCount else max(1, *course.lineBroken, 1)
     axes.set_ylim(-0.03 * most, 1.03 * most)
     if not bondCount:
@@ -139,24 +184,49 @@ def _drawOpening(axes, course, events, bondCount):
         at, last = np.unique(course.eventX[::-1], return_index=True)
         last = len(course.eventX) - last
         shares = axes if bondCount else axes.twinx()
-        shares.plot(at, np.cumsum(events["opened"])[last - 1] / last, color=COLOURS["dot"], linewidth=1.4,
-                    drawstyle="steps-post", marker="o", markersize=2.5, label="opened / invaded throats")
+        shares.plot(
+            at,
+            np.cumsum(events["opened"])[last - 1] / last,
+            color=COLOURS["dot"],
+            linewidth=1.4,
+            drawstyle="steps-post",
+            marker="o",
+            markersize=2.5,
+            label="opened / invaded throats",
+        )
         shares.set_ylim(-0.03, 1.03)
         if not bondCount:
             shares.set_ylabel("share of the invaded throats")
-            axes.plot([], [], color=COLOURS["dot"], linewidth=1.4, marker="o", markersize=2.5, label="opened / invaded throats")
+            axes.plot(
+                [],
+                [],
+                color=COLOURS["dot"],
+                linewidth=1.4,
+                marker="o",
+                markersize=2.5,
+                label="opened / invaded throats",
+            )
     if not len(course.shown):
         saySo(axes, "no pore was entered")
 
 
 def _drawMoving(axes, course, levels):
     axes.set(yscale="log", ylabel="largest displacement / radius")
-    for key, label, colour, line in (("displacement", "loaded grains", COLOURS["compression"], "-"),
-                                     ("displacementWithRattlers", "all grains", COLOURS["outline"], (0, (2, 2)))):
+    for key, label, colour, line in (
+        ("displacement", "loaded grains", COLOURS["compression"], "-"),
+        ("displacementWithRattlers", "all grains", COLOURS["outline"], (0, (2, 2))),
+    ):
         values = np.array(levels[key], dtype=float)
         if np.any(values > 0):
-            axes.plot(course.x, np.where(values > 0, values, np.nan), linestyle=line, color=colour, linewidth=1.4,
-                      label=label, marker="." if np.sum(values > 0) == 1 else None)
+            axes.plot(
+                course.x,
+                np.where(values > 0, values, np.nan),
+                linestyle=line,
+                color=colour,
+                linewidth=1.4,
+                label=label,
+                marker="." if np.sum(values > 0) == 1 else None,
+            )
     if not axes.lines:
         saySo(axes, "no grain has moved")
         return

@@ -6,7 +6,8 @@
     export.writeCollection("fields/injection.pvd", files)
     export.writeNetwork(snapshots[-1], "network")
 
-The values are those of the snapshot, in SI units; lengths are in metres, so a sample of 1 um grains is small in ParaView.
+The values are those of the snapshot, in SI units; lengths are in metres, so a sample of 1 um grains is small in
+ParaView.
 """
 
 import csv
@@ -34,15 +35,36 @@ def writeFields(snapshot, folder, stem):
     os.makedirs(folder, exist_ok=True)
     places = np.column_stack([s.x, s.y])
     corners, order = _polygonBlocks(s)
-    cellData = {"phase": s.cellPhase, "pressure": s.cellPressure, "void": s.cellVoid, "domain": s.cellDomain, "inlet": s.cellInlet}
+    cellData = {
+        "phase": s.cellPhase,
+        "pressure": s.cellPressure,
+        "void": s.cellVoid,
+        "domain": s.cellDomain,
+        "inlet": s.cellInlet,
+    }
     meshes = {
         # A corner is written once for each of its cells: what differs from cell to cell must not be smeared.
-        "cells": meshio.Mesh(_in3d(s.polygonCorners), corners,
-                             cell_data={name: [_plain(values)[rows] for rows in order] for name, values in cellData.items()}),
-        "grains": meshio.Mesh(_in3d(places), [("vertex", np.arange(len(s.ids))[:, None])],
-                              point_data={"id": s.ids, "radius": s.r, "displacement": _in3d(s.displacement), "rattler": _plain(s.rattler)}),
-        "throats": _lines(meshio, s.endsOf(s.throatIds), {"gap": s.throatGap, "open": s.throatOpen, "entryPressure": s.entryPressure}),
-        "contacts": _lines(meshio, s.contactEnds, {"normalForce": s.normalForce, "shearForce": s.shearForce, "bonded": s.bonded}),
+        "cells": meshio.Mesh(
+            _in3d(s.polygonCorners),
+            corners,
+            cell_data={name: [_plain(values)[rows] for rows in order] for name, values in cellData.items()},
+        ),
+        "grains": meshio.Mesh(
+            _in3d(places),
+            [("vertex", np.arange(len(s.ids))[:, None])],
+            point_data={
+                "id": s.ids,
+                "radius": s.r,
+                "displacement": _in3d(s.displacement),
+                "rattler": _plain(s.rattler),
+            },
+        ),
+        "throats": _lines(
+            meshio, s.endsOf(s.throatIds), {"gap": s.throatGap, "open": s.throatOpen, "entryPressure": s.entryPressure}
+        ),
+        "contacts": _lines(
+            meshio, s.contactEnds, {"normalForce": s.normalForce, "shearForce": s.shearForce, "bonded": s.bonded}
+        ),
     }
     paths = {}
     for kind, mesh in meshes.items():
@@ -68,8 +90,12 @@ def writeCollection(path, entries):
     for time, files in sorted(entries.items()):
         files = files if isinstance(files, dict) else {"": files}
         for part, (kind, file) in enumerate(files.items()):
-            relative = (os.path.relpath(file, folder) if os.path.dirname(file) else os.fspath(file)).replace(os.sep, "/")
-            ElementTree.SubElement(collection, "DataSet", timestep=repr(float(time)), group="", part=str(part), name=kind, file=relative)
+            relative = (os.path.relpath(file, folder) if os.path.dirname(file) else os.fspath(file)).replace(
+                os.sep, "/"
+            )
+            ElementTree.SubElement(
+                collection, "DataSet", timestep=repr(float(time)), group="", part=str(part), name=kind, file=relative
+            )
     ElementTree.indent(root)
     ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
 
@@ -98,11 +124,18 @@ def writeNetwork(snapshot, folder):
     between = inside & (conns[:, 0] != conns[:, 1])
     conns = np.sort(conns[between], axis=1)  # OpenPNM wants the smaller first
     columns = {
-        "pore.coords[0]": coords[:, 0], "pore.coords[1]": coords[:, 1], "pore.coords[2]": np.zeros(len(domains)),
-        "pore.volume": volume, "pore.phase": s.cellPhase[first], "pore.pressure": s.cellPressure[first],
-        "pore.inlet": np.bincount(row, s.cellInlet, len(domains)).astype(bool).astype(int), "pore.domain": domains,
-        "throat.conns[0]": conns[:, 0], "throat.conns[1]": conns[:, 1],
-        "throat.gap": s.throatGap[between], "throat.entry_pressure": s.entryPressure[between],
+        "pore.coords[0]": coords[:, 0],
+        "pore.coords[1]": coords[:, 1],
+        "pore.coords[2]": np.zeros(len(domains)),
+        "pore.volume": volume,
+        "pore.phase": s.cellPhase[first],
+        "pore.pressure": s.cellPressure[first],
+        "pore.inlet": np.bincount(row, s.cellInlet, len(domains)).astype(bool).astype(int),
+        "pore.domain": domains,
+        "throat.conns[0]": conns[:, 0],
+        "throat.conns[1]": conns[:, 1],
+        "throat.gap": s.throatGap[between],
+        "throat.entry_pressure": s.entryPressure[between],
     }
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, "network.csv")
@@ -119,7 +152,9 @@ def _meshio():
     try:
         import meshio
     except ImportError:
-        raise CapfracError("fields for ParaView need the Python package meshio, which is not installed (Debian: python3-meshio)") from None
+        raise CapfracError(
+            "fields for ParaView need the Python package meshio, which is not installed (Debian: python3-meshio)"
+        ) from None
     return meshio
 
 
@@ -138,7 +173,9 @@ def _polygonBlocks(s):
     blocks, order = [], []
     for size in np.unique(sizes):
         rows = np.flatnonzero(sizes == size)
-        blocks.append(({3: "triangle", 4: "quad"}.get(int(size), "polygon"), s.polygonOffsets[rows][:, None] + np.arange(size)))
+        blocks.append(
+            ({3: "triangle", 4: "quad"}.get(int(size), "polygon"), s.polygonOffsets[rows][:, None] + np.arange(size))
+        )
         order.append(rows)
     return blocks, order
 
@@ -147,5 +184,8 @@ def _lines(meshio, ends, data):
     """Lines with values; those between two walls, which are nowhere, are left out."""
     known = np.all(np.isfinite(ends), axis=(1, 2))
     n = int(np.sum(known))
-    return meshio.Mesh(_in3d(ends[known].reshape(-1, 2)), [("line", np.arange(2 * n).reshape(n, 2))],
-                       cell_data={name: [_plain(values)[known]] for name, values in data.items()})
+    return meshio.Mesh(
+        _in3d(ends[known].reshape(-1, 2)),
+        [("line", np.arange(2 * n).reshape(n, 2))],
+        cell_data={name: [_plain(values)[known]] for name, values in data.items()},
+    )

@@ -21,9 +21,20 @@ from matplotlib.patches import Circle, Rectangle
 from capfrac.errors import CaseError
 from capfrac.snapshot import WALL_AXIS, WALL_NAMES
 
-COLOURS = {"grain": "#f3e8c3", "rattler": "#f7f4ec", "outline": "#9a8f73", "gas": "#5aa9ea", "dot": "#0f4fa8", "compression": "#8b4a1c",
-           "tension": "#1c8f3a", "broken": "#e0182d", "wall": "#3c3c3c", "inlet": "#0f4fa8"}
-#: Forces are drawn to scale up to this percentile of their magnitudes, which is as thick as this share of the mean radius.
+COLOURS = {
+    "grain": "#f3e8c3",
+    "rattler": "#f7f4ec",
+    "outline": "#9a8f73",
+    "gas": "#5aa9ea",
+    "dot": "#0f4fa8",
+    "compression": "#8b4a1c",
+    "tension": "#1c8f3a",
+    "broken": "#e0182d",
+    "wall": "#3c3c3c",
+    "inlet": "#0f4fa8",
+}
+#: Forces are drawn to scale up to this percentile of their magnitudes, which is as thick as this share of the mean
+#: radius.
 FORCE_PERCENTILE, FORCE_WIDTH = 95, 0.4
 #: Forces above this multiple of that percentile are drawn no thicker: one crack tip must not hide its neighbours.
 FORCE_LIMIT = 2.0
@@ -50,7 +61,10 @@ def drawPair(snapshots, path, titles=None, width=3.6, forces=True, bonds=True, d
     snapshots = list(snapshots)
     titles = [None] * len(snapshots) if titles is None else list(titles)
     if not snapshots or len(titles) != len(snapshots):
-        raise CaseError(f"drawPair got {len(snapshots)} snapshots and {len(titles)} titles, allowed: at least one, as many titles as snapshots")
+        raise CaseError(
+            f"drawPair got {len(snapshots)} snapshots and {len(titles)} titles, allowed: at least one, as many titles"
+            " as snapshots"
+        )
     _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
 
 
@@ -121,13 +135,26 @@ def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
     with newFigure(total) as figure:
         for k, (snapshot, (across, up), (title, _)) in enumerate(zip(snapshots, inches[:, None] * sides, names)):
             middle = rim + k * (width + gap) + 0.5 * width
-            axes = figure.add_axes([(middle - 0.5 * across) / total[0], foot / total[1], across / total[0],
-                                    up / total[1]])
+            axes = figure.add_axes(
+                [(middle - 0.5 * across) / total[0], foot / total[1], across / total[0], up / total[1]]
+            )
             _drawSample(axes, snapshot, 72 * inches[k], forces, bonds, dots, scales[k])
             drawScaleBar(axes, snapshot, inches[k])
             figure.text(middle / total[0], 1 - 0.5 * head / total[1], title, ha="center", va="center", fontsize=10)
-        figure.legend(handles=handles, ncol=columns, loc="lower left", bbox_to_anchor=(rim / total[0], 0.05 / total[1]), fontsize=7, frameon=False,
-                      borderaxespad=0, borderpad=0, handlelength=1.5, columnspacing=1.3, handletextpad=0.5, labelspacing=0.35)
+        figure.legend(
+            handles=handles,
+            ncol=columns,
+            loc="lower left",
+            bbox_to_anchor=(rim / total[0], 0.05 / total[1]),
+            fontsize=7,
+            frameon=False,
+            borderaxespad=0,
+            borderpad=0,
+            handlelength=1.5,
+            columnspacing=1.3,
+            handletextpad=0.5,
+            labelspacing=0.35,
+        )
         saveFigure(figure, path)
 
 
@@ -143,11 +170,22 @@ def _drawSample(axes, s, points, forces, bonds, dots, scale):
 
     gas = np.flatnonzero(s.gasCells)
     # Outlines of their own colour close the hairlines that antialiasing leaves between neighbouring cells.
-    axes.add_collection(PolyCollection([s.polygon(c) for c in gas], facecolors=COLOURS["gas"], edgecolors=COLOURS["gas"], linewidths=0.5, zorder=1))
+    axes.add_collection(
+        PolyCollection(
+            [s.polygon(c) for c in gas], facecolors=COLOURS["gas"], edgecolors=COLOURS["gas"], linewidths=0.5, zorder=1
+        )
+    )
     colours = np.where(s.rattler, COLOURS["rattler"], COLOURS["grain"])
     grains = [Circle(centre, r) for centre, r in zip(np.column_stack([s.x, s.y]), s.r)]
-    axes.add_collection(PatchCollection(grains, facecolors=list(colours), edgecolors=COLOURS["outline"], zorder=2,
-                                        linewidths=min(0.6, 0.06 * radius)))
+    axes.add_collection(
+        PatchCollection(
+            grains,
+            facecolors=list(colours),
+            edgecolors=COLOURS["outline"],
+            zorder=2,
+            linewidths=min(0.6, 0.06 * radius),
+        )
+    )
     if dots and len(gas):
         centres, clearances = _gasDots(s, gas)
         spots = [Circle(centre, r) for centre, r in zip(centres, np.minimum(0.6 * clearances, 0.3 * np.mean(s.r)))]
@@ -156,11 +194,29 @@ def _drawSample(axes, s, points, forces, bonds, dots, scale):
         for colour, sign, layer in (("compression", 1, 4), ("tension", -1, 5)):
             chosen = np.sign(s.normalForce) == sign
             widths = FORCE_WIDTH * radius * np.minimum(np.abs(s.normalForce[chosen]) / scale, FORCE_LIMIT)
-            axes.add_collection(LineCollection(s.contactEnds[chosen], colors=COLOURS[colour], linewidths=widths, capstyle="round", zorder=layer))
+            axes.add_collection(
+                LineCollection(
+                    s.contactEnds[chosen], colors=COLOURS[colour], linewidths=widths, capstyle="round", zorder=layer
+                )
+            )
     if bonds and len(s.brokenBonds):
-        axes.add_collection(LineCollection(bondStrokes(s), colors=COLOURS["broken"], linewidths=_strokeWidth(radius), capstyle="round", zorder=6))
-    axes.add_patch(Rectangle((left, bottom), right - left, top - bottom, fill=False, edgecolor=COLOURS["wall"], linewidth=1.2,
-                             zorder=7, clip_on=False))
+        axes.add_collection(
+            LineCollection(
+                bondStrokes(s), colors=COLOURS["broken"], linewidths=_strokeWidth(radius), capstyle="round", zorder=6
+            )
+        )
+    axes.add_patch(
+        Rectangle(
+            (left, bottom),
+            right - left,
+            top - bottom,
+            fill=False,
+            edgecolor=COLOURS["wall"],
+            linewidth=1.2,
+            zorder=7,
+            clip_on=False,
+        )
+    )
     drawInlet(axes, s, points)
     axes.set(xlim=(left, right), ylim=(bottom, top))
     axes.set_axis_off()
@@ -202,15 +258,24 @@ def bondStrokes(s):
     length = np.linalg.norm(along, axis=1, keepdims=True)
     along = along / np.where(length > 0, length, 1)
     middle = ends[:, 0] + along * 0.5 * (length + radii[:, :1] - radii[:, 1:])
-    half = 0.4 * np.where(radii > 0, radii, np.inf).min(axis=1, keepdims=True) * np.column_stack([-along[:, 1], along[:, 0]])
+    half = (
+        0.4
+        * np.where(radii > 0, radii, np.inf).min(axis=1, keepdims=True)
+        * np.column_stack([-along[:, 1], along[:, 0]])
+    )
     return np.stack([middle - half, middle + half], axis=1)
 
 
 def drawInlet(axes, s, points, **marker):
     """Where the gas comes in: a bar along the wall, or marks at the points; ``points`` (of widths) per metre."""
     if s.inletPoints.size:
-        marker = {"marker": "o", "markersize": 6, "markerfacecolor": "none", "markeredgecolor": COLOURS["inlet"],
-                  **marker}
+        marker = {
+            "marker": "o",
+            "markersize": 6,
+            "markerfacecolor": "none",
+            "markeredgecolor": COLOURS["inlet"],
+            **marker,
+        }
         axes.plot(*s.inletPoints.T, linestyle="none", zorder=9, **marker)
     if s.inletWall and s.inletTo > s.inletFrom:
         # A bar just outside of the wall, over the stretch that takes the gas.
@@ -236,13 +301,31 @@ def drawScaleBar(axes, s, inches):
 def _legend(snapshots, points, forces, bonds, dots, scales, alike):
     s = snapshots[0]
     radius = float(np.mean(s.r)) * points if len(s.r) else 1.0
-    disk = {"marker": "o", "linestyle": "none", "markersize": 6.5, "markeredgecolor": COLOURS["outline"], "markeredgewidth": 0.6}
+    disk = {
+        "marker": "o",
+        "linestyle": "none",
+        "markersize": 6.5,
+        "markeredgecolor": COLOURS["outline"],
+        "markeredgewidth": 0.6,
+    }
     handles = [Line2D([], [], markerfacecolor=COLOURS["grain"], label="grain", **disk)]
     if any(np.any(t.rattler) for t in snapshots):
         handles.append(Line2D([], [], markerfacecolor=COLOURS["rattler"], label="grain without load", **disk))
     if any(np.any(t.gasCells) for t in snapshots):
-        handles.append(Line2D([], [], color=COLOURS["gas"], linewidth=7, solid_capstyle="butt", marker="o", markersize=3.2 if dots else 0,
-                              markerfacecolor=COLOURS["dot"], markeredgewidth=0, label="gas (dot per pore)" if dots else "gas"))
+        handles.append(
+            Line2D(
+                [],
+                [],
+                color=COLOURS["gas"],
+                linewidth=7,
+                solid_capstyle="butt",
+                marker="o",
+                markersize=3.2 if dots else 0,
+                markerfacecolor=COLOURS["dot"],
+                markeredgewidth=0,
+                label="gas (dot per pore)" if dots else "gas",
+            )
+        )
     if any(t.inletPoints.size or t.inletTo > t.inletFrom for t in snapshots):
         handles.append(Line2D([], [], color=COLOURS["inlet"], linewidth=4, solid_capstyle="butt", label="inlet"))
     if forces:
@@ -250,16 +333,38 @@ def _legend(snapshots, points, forces, bonds, dots, scales, alike):
         round1 = float(f"{scales[0]:.1g}")
         force = {"linewidth": FORCE_WIDTH * radius * round1 / scales[0], "solid_capstyle": "butt"}
         for name, sign in (("compression", 1), ("tension", -1)):
-            if any(np.any(sign * t.normalForce > 0.02 * scale) for t, scale in zip(snapshots, scales)):  # else no one could see it
-                handles.append(Line2D([], [], color=COLOURS[name], label=f"{name}, {quantity(round1, 'N')}" if alike else name, **force))
+            if any(
+                np.any(sign * t.normalForce > 0.02 * scale) for t, scale in zip(snapshots, scales)
+            ):  # else no one could see it
+                handles.append(
+                    Line2D(
+                        [],
+                        [],
+                        color=COLOURS[name],
+                        label=f"{name}, {quantity(round1, 'N')}" if alike else name,
+                        **force,
+                    )
+                )
     if bonds and any(len(t.brokenBonds) for t in snapshots):
-        handles.append(Line2D([], [], color=COLOURS["broken"], marker="|", linestyle="none", markersize=6, markeredgewidth=_strokeWidth(radius),
-                              label="broken bond"))
+        handles.append(
+            Line2D(
+                [],
+                [],
+                color=COLOURS["broken"],
+                marker="|",
+                linestyle="none",
+                markersize=6,
+                markeredgewidth=_strokeWidth(radius),
+                label="broken bond",
+            )
+        )
     return handles
 
 
 def _legendColumns(handles, room):
-    """As many columns as ``room`` inches hold, from the numbers of letters: to measure the text would cost a drawing."""
+    """As many columns as ``room`` inches hold, from the numbers of letters: to measure the text would cost a
+    drawing.
+    """
     for columns in range(len(handles), 1, -1):
         letters = np.array([len(handle.get_label()) for handle in handles])
         longest = [np.max(column) for column in np.array_split(letters, columns)]  # matplotlib splits like this
@@ -269,7 +374,9 @@ def _legendColumns(handles, room):
 
 
 def titleOf(title, width, size=10):
-    """A title for a figure ``width`` inches wide: its text, in as many lines as needed (up to 3), and the height [inches]."""
+    """A title for a figure ``width`` inches wide: its text, in as many lines as needed (up to 3), and the height
+    [inches].
+    """
     if not title:
         return "", 0.0
     # 0.6 of the size is the mean width of a letter, with room to spare.
@@ -286,7 +393,9 @@ def putTitle(figure, text, size=10):
 @contextmanager
 def newFigure(size):
     """An empty figure in matplotlib's own style: the user's matplotlibrc must not change the pictures."""
-    with style.context("default"), matplotlib.rc_context({"svg.hashsalt": "capfrac", "font.size": 9, "pdf.fonttype": 42}):
+    with style.context("default"), matplotlib.rc_context(
+        {"svg.hashsalt": "capfrac", "font.size": 9, "pdf.fonttype": 42}
+    ):
         figure = Figure(figsize=size, dpi=_RESOLUTION)
         FigureCanvasAgg(figure)
         yield figure
@@ -295,8 +404,11 @@ def newFigure(size):
 def saveFigure(figure, path):
     """Without the date and the versions that matplotlib would put into the file."""
     kind = os.path.splitext(str(path))[1].lower()
-    metadata = {".png": {"Software": None}, ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
-                ".svg": {"Date": None, "Creator": None}}
+    metadata = {
+        ".png": {"Software": None},
+        ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
+        ".svg": {"Date": None, "Creator": None},
+    }
     if kind not in metadata:
         raise CaseError(f"the picture {path} would be of kind '{kind}', allowed: .png, .pdf, .svg")
     figure.savefig(path, metadata=metadata[kind])

@@ -8,25 +8,45 @@ from capfrac.keys import LARGEST_INT, didYouMean
 from capfrac.values import asFloat, asInt, shown
 
 
-def startInjection(start, increment, max=None, pores=0, wall="bottom", outlet="top", stretch=None, points=(),
-                   waterPressure=0.0, **attributes):
+def startInjection(
+    start,
+    increment,
+    max=None,
+    pores=0,
+    wall="bottom",
+    outlet="top",
+    stretch=None,
+    points=(),
+    waterPressure=0.0,
+    **attributes,
+):
     """Put a ``GasInvasionEngine`` (label ``gas``) into the current scene and prepare it; returns the engine.
 
     ``start``, ``increment``, ``max``: the ramp of the capillary pressure [Pa]; ``max`` says nothing to a program, a
     rate or a reservoir and may then be left out. The inlet is ``pores`` neighbouring pores around the middle of
     ``wall``, or the ``stretch`` (from, to) [m] of it (infinite ends are those of the wall), or the pores that hold
-    ``points`` [m]. All other attributes of the engine can be given by name. Raises :class:`CaseError` naming each argument that is impossible, and
-    :class:`SceneError` for a scene that cannot be followed (RuntimeError of the engine); the scene then is as before.
+    ``points`` [m]. All other attributes of the engine can be given by name. Raises :class:`CaseError` naming each
+    argument that is impossible, and :class:`SceneError` for a scene that cannot be followed (RuntimeError of the
+    engine); the scene then is as before.
     """
     from yade.wrapper import GasInvasionEngine
 
     sediment.engine("servo")  # a scene without one is refused before anything is made
     ramp = _numbers(start=start, increment=increment, max=start if max is None else max, waterPressure=waterPressure)
     pores, stretch, points = _checkedInlet(pores, stretch, points)
-    gas = madeEngine(GasInvasionEngine, **{
-        "label": "gas", "gasPressure": ramp["waterPressure"] + ramp["start"], "pressureIncrement": ramp["increment"],
-        "waterPressure": ramp["waterPressure"], "maxPressure": ramp["waterPressure"] + ramp["max"], "inletWall": wall,
-        "outletWall": outlet, **attributes})
+    gas = madeEngine(
+        GasInvasionEngine,
+        **{
+            "label": "gas",
+            "gasPressure": ramp["waterPressure"] + ramp["start"],
+            "pressureIncrement": ramp["increment"],
+            "waterPressure": ramp["waterPressure"],
+            "maxPressure": ramp["waterPressure"] + ramp["max"],
+            "inletWall": wall,
+            "outletWall": outlet,
+            **attributes,
+        },
+    )
     try:
         if points:
             gas.inletPoints = points
@@ -42,8 +62,11 @@ def startInjection(start, increment, max=None, pores=0, wall="bottom", outlet="t
 
 def _numbers(**values):
     """Values as floats. Raises :class:`CaseError` naming each that is no finite number."""
-    problems = [f"{name} = {shown(value)}, allowed: a finite number [Pa]" for name, value in values.items()
-                if asFloat(value) is None]
+    problems = [
+        f"{name} = {shown(value)}, allowed: a finite number [Pa]"
+        for name, value in values.items()
+        if asFloat(value) is None
+    ]
     if problems:
         raise CaseError(*problems)
     return {name: asFloat(value) for name, value in values.items()}
@@ -105,10 +128,11 @@ def _convertible(kind, name, value):
 
 
 def addMenisci(law="bridge", **attributes):
-    """Put a ``MeniscusCohesionEngine`` (label ``menisci``) of that ``law`` before the gas engine of :func:`startInjection`; returns the engine.
+    """Put a ``MeniscusCohesionEngine`` (label ``menisci``) of that ``law`` before the gas engine of
+    :func:`startInjection`; returns the engine.
 
-    Interfacial tension and contact angle are the gas's unless given. Raises :class:`CaseError` for an attribute out of range, :class:`SceneError` where
-    the scene has no engine ``gas``.
+    Interfacial tension and contact angle are the gas's unless given. Raises :class:`CaseError` for an attribute out of
+    range, :class:`SceneError` where the scene has no engine ``gas``.
     """
     from yade import O
     from yade.wrapper import MeniscusCohesionEngine

@@ -4,8 +4,8 @@
     sample = sediment.Sediment(grainCount=500, grading=grading.Lognormal(median=1e-3, spread=0.3))
     sample = sediment.Sediment(grainCount=500, grading=grading.readSieve("curve.csv"))
 
-A grading has ``rMin`` and ``rMax`` [m] and ``draw(count, rng)``, radii [m] in random order. Radii are drawn from equally
-likely strata, one from each, so that even a few hundred grains follow the distribution closely.
+A grading has ``rMin`` and ``rMax`` [m] and ``draw(count, rng)``, radii [m] in random order. Radii are drawn from
+equally likely strata, one from each, so that even a few hundred grains follow the distribution closely.
 
 Masses are those of the model's grains, disks of equal thickness and density: proportional to r^2. A sieve curve of a
 real sediment is thus met in per cent by mass, not in numbers of grains.
@@ -70,7 +70,9 @@ class Lognormal:
     def __post_init__(self):
         _requirePositive("Lognormal", median=self.median, spread=self.spread, cut=self.cut)
         if self.cut * self.spread > 10:
-            raise CaseError(f"Lognormal.cut * spread = {self.cut * self.spread:g}, allowed: up to 10 (radii over nine decades)")
+            raise CaseError(
+                f"Lognormal.cut * spread = {self.cut * self.spread:g}, allowed: up to 10 (radii over nine decades)"
+            )
 
     @property
     def rMin(self):
@@ -88,7 +90,9 @@ class Lognormal:
 
         normal = NormalDist()
         low, high = normal.cdf(-self.cut), normal.cdf(self.cut)
-        return np.array([self.median * math.exp(self.spread * normal.inv_cdf(low + (high - low) * u)) for u in _strata(count, rng)])
+        return np.array(
+            [self.median * math.exp(self.spread * normal.inv_cdf(low + (high - low) * u)) for u in _strata(count, rng)]
+        )
 
 
 @dataclass(frozen=True)
@@ -106,12 +110,15 @@ class Sieve:
         try:
             d, p = tuple(map(_number, self.diameter)), tuple(map(_number, self.passing))
         except (TypeError, ValueError, OverflowError):
-            raise CaseError(f"sieve curve: diameters {shown(self.diameter)}, passing {shown(self.passing)}; "
-                            "allowed: numbers") from None
+            raise CaseError(
+                f"sieve curve: diameters {shown(self.diameter)}, passing {shown(self.passing)}; allowed: numbers"
+            ) from None
         object.__setattr__(self, "diameter", d)
         object.__setattr__(self, "passing", p)
         if len(d) != len(p) or len(d) < 2:
-            raise CaseError(f"sieve curve: {len(d)} diameters and {len(p)} percentages, allowed: as many of both, at least two")
+            raise CaseError(
+                f"sieve curve: {len(d)} diameters and {len(p)} percentages, allowed: as many of both, at least two"
+            )
         _checkCurve(d, p, [f"sieve curve, entry {k}" for k in range(1, len(d) + 1)], "sieve curve")
 
     def _filled(self):
@@ -149,17 +156,23 @@ def _checkCurve(d, p, places, curve):
         if not (math.isfinite(d[k]) and d[k] > 0 and 0 <= p[k] <= 100):
             raise CaseError(f"{place}: diameter {d[k]:g} m, passing {p[k]:g} %; allowed: diameter > 0, 0 to 100 %")
         if k and (d[k] <= d[k - 1] or p[k] < p[k - 1]):
-            raise CaseError(f"{place}: diameter {d[k]:g} m after {d[k - 1]:g} m, passing {p[k]:g} % after "
-                            f"{p[k - 1]:g} %; allowed: larger diameters, percentages that do not fall "
-                            "(a sieve curve is monotone)")
+            raise CaseError(
+                f"{place}: diameter {d[k]:g} m after {d[k - 1]:g} m, passing {p[k]:g} % after "
+                f"{p[k - 1]:g} %; allowed: larger diameters, percentages that do not fall "
+                "(a sieve curve is monotone)"
+            )
     if len(d) < 2 or p[0] != 0 or p[-1] != 100:
-        raise CaseError(f"{curve}: runs from {p[0]:g} % to {p[-1]:g} % passing, allowed: from 0 % (add the diameter "
-                        "of the finest grain) to 100 % (add that of the coarsest)")
+        raise CaseError(
+            f"{curve}: runs from {p[0]:g} % to {p[-1]:g} % passing, allowed: from 0 % (add the diameter "
+            "of the finest grain) to 100 % (add that of the coarsest)"
+        )
 
 
 #: What a sieve curve is made of.
-COLUMNS = (Column("diameter", "m", {"d": "1", "size": "1", "radius": "2", "r": "2"}, low=0, openLow=True),
-           Column("passing", "%", low=0, high=100))
+COLUMNS = (
+    Column("diameter", "m", {"d": "1", "size": "1", "radius": "2", "r": "2"}, low=0, openLow=True),
+    Column("passing", "%", low=0, high=100),
+)
 
 
 def readSieve(path):

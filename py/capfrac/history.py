@@ -10,10 +10,11 @@ from capfrac.fracture.passage import gasOfTheInlet
 
 
 def levelsToTheEnd(gas, shot):
-    """The levels of a ``GasInvasionEngine``, a dict of lists as of ``gas.levels()`` with ``finished`` (bool) besides, up to the present state.
+    """The levels of a ``GasInvasionEngine``, a dict of lists as of ``gas.levels()`` with ``finished`` (bool) besides,
+    up to the present state.
 
-    The level at which a run ended, because gas was through, time was over or the sample came apart, is not finished: its row, the last
-    one, is the state of the snapshot ``shot``, taken just now.
+    The level at which a run ended, because gas was through, time was over or the sample came apart, is not finished:
+    its row, the last one, is the state of the snapshot ``shot``, taken just now.
     """
     from yade import O
 
@@ -24,21 +25,39 @@ def levelsToTheEnd(gas, shot):
     moved = np.hypot(*shot.displacement.T) / shot.r
     contact = float(np.abs(shot.normalForce).mean()) if len(shot.normalForce) else 0.0
     resultant = float(np.mean([O.forces.f(int(i)).norm() for i in shot.ids]))
-    row = {"pressure": shot.gasPressure, "gasSaturation": shot.gasSaturation, "brokenBonds": len(shot.brokenBonds),
-           "displacement": float(np.max(moved[~shot.rattler], initial=0.0)), "displacementWithRattlers": float(moved.max()),
-           "unbalanced": resultant / contact if contact > 0 else math.inf if resultant > 0 else 0.0, "atRest": False, "iteration": shot.iteration,
-           "gasVolume": gas.volumes()["gas"], "finished": False}
+    row = {
+        "pressure": shot.gasPressure,
+        "gasSaturation": shot.gasSaturation,
+        "brokenBonds": len(shot.brokenBonds),
+        "displacement": float(np.max(moved[~shot.rattler], initial=0.0)),
+        "displacementWithRattlers": float(moved.max()),
+        "unbalanced": resultant / contact if contact > 0 else math.inf if resultant > 0 else 0.0,
+        "atRest": False,
+        "iteration": shot.iteration,
+        "gasVolume": gas.volumes()["gas"],
+        "finished": False,
+    }
     return {name: values + [row[name]] for name, values in levels.items()}
 
 
 def courseToTheEnd(gas, shot):
-    """The history of a ``GasInvasionEngine``, a dict of lists as of ``gas.history()``, up to the state of the snapshot ``shot``, taken just now."""
+    """The history of a ``GasInvasionEngine``, a dict of lists as of ``gas.history()``, up to the state of the snapshot
+    ``shot``, taken just now.
+    """
     course = gas.history()
     if course["iteration"] and course["iteration"][-1] >= shot.iteration:
         return course
     connected = float(np.array(gas.cells()["gas"])[gasOfTheInlet(shot)].sum())
-    row = {"time": shot.time, "iteration": shot.iteration, "gasPressure": shot.gasPressure, "connectedVolume": connected, "mass": gas.gasLedger()["injected"],
-           "gasSaturation": shot.gasSaturation, "brokenBonds": len(shot.brokenBonds), "level": shot.level}
+    row = {
+        "time": shot.time,
+        "iteration": shot.iteration,
+        "gasPressure": shot.gasPressure,
+        "connectedVolume": connected,
+        "mass": gas.gasLedger()["injected"],
+        "gasSaturation": shot.gasSaturation,
+        "brokenBonds": len(shot.brokenBonds),
+        "level": shot.level,
+    }
     return {name: values + [row[name]] for name, values in course.items()}
 
 
@@ -60,8 +79,14 @@ def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, 
     text, head = titleOf(title, 6.4)
     total = 4.2 + max(0.0, head - 0.3)
     with newFigure((6.4, total)) as figure:
-        grid = {"left": 0.115, "right": 0.885, "bottom": 0.48 / total, "top": 1 - max(head, 0.13) / total,
-                "hspace": 0.12, "height_ratios": (2, 1)}
+        grid = {
+            "left": 0.115,
+            "right": 0.885,
+            "bottom": 0.48 / total,
+            "top": 1 - max(head, 0.13) / total,
+            "hspace": 0.12,
+            "height_ratios": (2, 1),
+        }
         above, below = figure.subplots(2, 1, sharex=True, gridspec_kw=grid)
         _drawPressure(above, course, times, pressures, entries, breakthroughIter)
         above.set(ylabel=f"capillary pressure $P_c$ [{pressureUnit}]")
@@ -70,8 +95,14 @@ def drawHistory(history, path, events=None, breakthroughIter=-1, startTime=0.0, 
         through = course.breakthrough(entries, breakthroughIter)
         if math.isfinite(through):
             for axes in (above, below):
-                axes.axvline(through, color="0.45", linewidth=0.9, linestyle=(0, (4, 3)), zorder=1,
-                             label="breakthrough" if axes is above else None)
+                axes.axvline(
+                    through,
+                    color="0.45",
+                    linewidth=0.9,
+                    linestyle=(0, (4, 3)),
+                    zorder=1,
+                    label="breakthrough" if axes is above else None,
+                )
         for axes in figure.axes:
             axes.tick_params(labelsize=8)
             axes.spines["top"].set_visible(False)
@@ -107,18 +138,35 @@ def _drawPressure(axes, course, times, pressures, events, breakthroughIter):
     # Through the entries, too: between two rows of the history the pressure may jump.
     at, values = course.time(times), course.pressure(pressures)
     order = np.argsort(at, kind="stable")
-    axes.plot(at[order], values[order], color=COLOURS["gas"], linewidth=1.3, zorder=2, label="$P_c$",
-              marker="." if len(at) == 1 else None)
+    axes.plot(
+        at[order],
+        values[order],
+        color=COLOURS["gas"],
+        linewidth=1.3,
+        zorder=2,
+        label="$P_c$",
+        marker="." if len(at) == 1 else None,
+    )
     at, entered = course.time(events["time"]), course.pressure(events["gasPressure"])
     opened = np.array(events["opened"], dtype=bool)
-    for name, colour, chosen in (("pore entered, rigid throat", COLOURS["dot"], ~opened),
-                                 ("pore entered, opened throat", COLOURS["broken"], opened)):
+    for name, colour, chosen in (
+        ("pore entered, rigid throat", COLOURS["dot"], ~opened),
+        ("pore entered, opened throat", COLOURS["broken"], opened),
+    ):
         if chosen.any():
             axes.plot(at[chosen], entered[chosen], ".", color=colour, markersize=4, zorder=3, label=name)
     if opened.any():
         first = int(np.flatnonzero(opened)[0])
-        axes.plot(at[first], entered[first], "^", color=COLOURS["broken"], markersize=8, markerfacecolor="none",
-                  zorder=4, label="first opened throat")
+        axes.plot(
+            at[first],
+            entered[first],
+            "^",
+            color=COLOURS["broken"],
+            markersize=8,
+            markerfacecolor="none",
+            zorder=4,
+            label="first opened throat",
+        )
 
 
 def _drawGas(axes, course, rows):
@@ -129,8 +177,15 @@ def _drawGas(axes, course, rows):
     time, dot = course.time(rows["time"]), "." if len(rows["time"]) == 1 else None
     axes.plot(time, rows["gasSaturation"], color=COLOURS["dot"], linewidth=1.3, marker=dot, label="gas saturation")
     bonds = axes.twinx()
-    bonds.plot(time, rows["brokenBonds"], color=COLOURS["broken"], linewidth=1.1, drawstyle="steps-post", marker=dot,
-               label="broken bonds")
+    bonds.plot(
+        time,
+        rows["brokenBonds"],
+        color=COLOURS["broken"],
+        linewidth=1.1,
+        drawstyle="steps-post",
+        marker=dot,
+        label="broken bonds",
+    )
     bonds.set_ylabel("broken bonds", color=COLOURS["broken"])
     bonds.yaxis.set_major_locator(MaxNLocator("auto", integer=True))
     for each, most in ((axes, max(*rows["gasSaturation"], 0.01)), (bonds, max(1, *rows["brokenBonds"]))):

@@ -17,8 +17,19 @@ from dataclasses import asdict
 
 import numpy as np
 
-from capfrac import (casescene, curve, environment, export, figures, fracture, history, mode, namedfiles, sediment,
-                     snapshot)
+from capfrac import (
+    casescene,
+    curve,
+    environment,
+    export,
+    figures,
+    fracture,
+    history,
+    mode,
+    namedfiles,
+    sediment,
+    snapshot,
+)
 from capfrac.case import readCase, resolveCase
 from capfrac.casepacking import checkPacking
 from capfrac.casewords import inCaseWords
@@ -59,19 +70,37 @@ class Run:
             self.begun = True
             self.folder.writeSummary(threads=environment.most(self.folder.summary))
             return
-        nBonds = casescene.makeSample(self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}"))
+        nBonds = casescene.makeSample(
+            self.case, lambda label, unbalanced: self.report(f"{label}: unbalanced force {unbalanced:.2g}")
+        )
         self.gas = casescene.startGas(self.case)
         self.warnOfStart()
         throats = [p for p in self.gas.throats()["entryPressure"] if p > 0]
         bonded = sum(1 for i in O.interactions if i.isReal and not i.phys.cohesionBroken)
         self.folder.writeSummary(
-            state="running", title=self.case["case"]["title"], versions=versions(), threads=environment.threadsInUse(),
-            parameters=self.case, snapshots=[],
-            sample={"grains": len(O.bodies) - 4, "boxWidth [m]": sediment.boxSize()[0], "boxHeight [m]": sediment.boxSize()[1], "stress [Pa]": list(sediment.engine("servo").stress),
-                    "porosity": self.gas.volumes()["void"] / math.prod(sediment.boxSize()), "bondsSet": nBonds, "bondsHolding": bonded,
-                    "rattlers": len(self.gas.rattlers), "throatEntryPressureMin [Pa]": min(throats), "throatEntryPressureMax [Pa]": max(throats),
-                    "inletPores": self.gas.inletPores, "inletWidth [m]": self.gas.inletWidth,
-                    "startTime [s]": O.time, "pressureRisePerPeriod [Pa]": self.gas.risePerPeriod()})
+            state="running",
+            title=self.case["case"]["title"],
+            versions=versions(),
+            threads=environment.threadsInUse(),
+            parameters=self.case,
+            snapshots=[],
+            sample={
+                "grains": len(O.bodies) - 4,
+                "boxWidth [m]": sediment.boxSize()[0],
+                "boxHeight [m]": sediment.boxSize()[1],
+                "stress [Pa]": list(sediment.engine("servo").stress),
+                "porosity": self.gas.volumes()["void"] / math.prod(sediment.boxSize()),
+                "bondsSet": nBonds,
+                "bondsHolding": bonded,
+                "rattlers": len(self.gas.rattlers),
+                "throatEntryPressureMin [Pa]": min(throats),
+                "throatEntryPressureMax [Pa]": max(throats),
+                "inletPores": self.gas.inletPores,
+                "inletWidth [m]": self.gas.inletWidth,
+                "startTime [s]": O.time,
+                "pressureRisePerPeriod [Pa]": self.gas.risePerPeriod(),
+            },
+        )
         self.start = snapshot.takeSnapshot(self.gas)
         self.picture("start")
         self.checkpoint()
@@ -79,13 +108,17 @@ class Run:
     def warnOfStart(self):
         """Say what can be known before the first step to make results empty."""
         if self.gas.breakthroughIter >= 0:
-            self.warn("a pore of the inlet touches the outlet before any gas moves, so the breakthrough says nothing; "
-                      "choose a narrower inlet, one farther from the outlet, or a larger sample")
+            self.warn(
+                "a pore of the inlet touches the outlet before any gas moves, so the breakthrough says nothing; "
+                "choose a narrower inlet, one farther from the outlet, or a larger sample"
+            )
         low, high = self.pressureRange()
         outside = [p for p in self.case["output"]["pressures"] if not low <= p <= high]
         if outside:
-            self.warn(f"output.pressures: no snapshot at {', '.join(map(exactText, outside))} Pa, the capillary "
-                      f"pressure goes from {exactText(low)} to {exactText(high)} Pa")
+            self.warn(
+                f"output.pressures: no snapshot at {', '.join(map(exactText, outside))} Pa, the capillary "
+                f"pressure goes from {exactText(low)} to {exactText(high)} Pa"
+            )
 
     def pressureRange(self):
         """Lowest and highest capillary pressure that the case prescribes [Pa]."""
@@ -104,10 +137,16 @@ class Run:
 
         try:
             O.load(str(self.folder.checkpoint), quiet=True)
-        except (RuntimeError, MemoryError, ValueError) as problem:  # what YADE raises depends on where the file ends to make sense
+        except (
+            RuntimeError,
+            MemoryError,
+            ValueError,
+        ) as problem:  # what YADE raises depends on where the file ends to make sense
             O.reset()
-            raise RunFolderError(f"the checkpoint {self.folder.checkpoint} cannot be read ({problem or type(problem).__name__}): damaged, or of "
-                                 "another version of capfrac or YADE; --restart discards the run") from None
+            raise RunFolderError(
+                f"the checkpoint {self.folder.checkpoint} cannot be read ({problem or type(problem).__name__}):"
+                " damaged, or of another version of capfrac or YADE; --restart discards the run"
+            ) from None
         environment.adoptScene()
         self.gas = sediment.engine("gas")
 
@@ -128,14 +167,24 @@ class Run:
         if self.case["output"]["pictures"] in (("all", "end") if name == "end" else ("all",)):
             figures.drawSnapshot(shot, shots / f"{name}.png", title=None)
         fracture.takeStress(self.gas, shot).save(shots / f"{name}-stress.npz")
-        entry = {"name": name, "time [s]": shot.time, "iteration": shot.iteration, "level": shot.level,
-                 "capillaryPressure [Pa]": shot.gasPressure - shot.waterPressure, "gasSaturation": shot.gasSaturation}
+        entry = {
+            "name": name,
+            "time [s]": shot.time,
+            "iteration": shot.iteration,
+            "level": shot.level,
+            "capillaryPressure [Pa]": shot.gasPressure - shot.waterPressure,
+            "gasSaturation": shot.gasSaturation,
+        }
         entries = [e for e in self.folder.summary["snapshots"] if e["name"] != name] + [entry]
         if self.case["output"]["fields"]:
             fields = self.folder.sub("fields")
             export.writeFields(shot, fields, name)
             for kind in ("cells", "grains", "throats", "contacts"):
-                files = [(e["time [s]"], f"{e['name']}_{kind}.vtu") for e in entries if (fields / f"{e['name']}_{kind}.vtu").exists()]
+                files = [
+                    (e["time [s]"], f"{e['name']}_{kind}.vtu")
+                    for e in entries
+                    if (fields / f"{e['name']}_{kind}.vtu").exists()
+                ]
                 if files:
                     export.writeCollection(fields / f"{kind}.pvd", files)
         self.folder.writeSummary(snapshots=entries)
@@ -156,7 +205,9 @@ class Run:
         self.folder.writeSummary(**self.cost(), **self.modes(snapshot.takeSnapshot(self.gas, self.start)))
 
     def modes(self, now=None):
-        """The modes of the run for its summary, from what its folder holds and, while it is not finished, its state ``now``."""
+        """The modes of the run for its summary, from what its folder holds and, while it is not finished, its state
+        ``now``.
+        """
         return {name: found and asdict(found) for name, found in mode.modesOfRun(self.folder.path, now).items()}
 
     def cost(self):
@@ -176,7 +227,9 @@ class Run:
         if ramp["endAt"] == "rest" and any(entry["name"] == "rest" for entry in self.folder.summary["snapshots"]):
             return "gas reached the outlet, and its level is finished"
         before = self.folder.summary["sample"]
-        growth = max(sediment.boxSize()[0] / before["boxWidth [m]"], sediment.boxSize()[1] / before["boxHeight [m]"]) - 1
+        growth = (
+            max(sediment.boxSize()[0] / before["boxWidth [m]"], sediment.boxSize()[1] / before["boxHeight [m]"]) - 1
+        )
         if growth > ramp["maxExtension"]:
             return f"the sample came apart: the box grew by {growth:.0%}"
         supply, pressure = self.case["supply"], self.gas.gasPressure - self.gas.waterPressure
@@ -201,12 +254,21 @@ class Run:
         return sorted({float(p) for p in self.case["output"]["pressures"] if low <= p < high})
 
     def advance(self, taken):
-        """Run to the next look at the run: less far where what a snapshot waits for may have come, so that it is of that very step."""
+        """Run to the next look at the run: less far where what a snapshot waits for may have come, so that it is of
+        that very step.
+        """
         from yade import O
 
         gas = self.gas
-        watched = [name for name, waiting in (
-            ("breakthroughIter", True), ("nEvents", "initiation" not in taken), ("level", "breakthrough" in taken and "rest" not in taken)) if waiting]
+        watched = [
+            name
+            for name, waiting in (
+                ("breakthroughIter", True),
+                ("nEvents", "initiation" not in taken),
+                ("level", "breakthrough" in taken and "rest" not in taken),
+            )
+            if waiting
+        ]
         before = [getattr(gas, name) for name in watched]
         for _ in range(CHUNK - O.iter % CHUNK):
             O.step()
@@ -220,7 +282,11 @@ class Run:
         through = next((entry for entry in self.folder.summary["snapshots"] if entry["name"] == "breakthrough"), None)
         if through is None:
             return False
-        return self.gas.level > through["level"] or self.gas.rampDone or O.iter >= through["iteration"] + self.gas.maxLevelSteps
+        return (
+            self.gas.level > through["level"]
+            or self.gas.rampDone
+            or O.iter >= through["iteration"] + self.gas.maxLevelSteps
+        )
 
     def loop(self, bar):
         """Run to the end, with snapshots on the way."""
@@ -261,22 +327,37 @@ class Run:
         start = self.case["ramp"]["start"]
         found = [name for name, p in pressures.items() if p is not None and p <= start * (1 + 1e-12)]
         if found:
-            self.folder.warn(f"reached at ramp.start = {exactText(start)} Pa already, so upper bounds: "
-                             f"{', '.join(found)}; begin the ramp lower to find them")
+            self.folder.warn(
+                f"reached at ramp.start = {exactText(start)} Pa already, so upper bounds: "
+                f"{', '.join(found)}; begin the ramp lower to find them"
+            )
         return found
 
     def drawCourse(self, levels, course, bounds):
-        """Draw curve.png and history.png of levels and course to the end of the run; ``bounds``: see :meth:`upperBounds`."""
+        """Draw curve.png and history.png of levels and course to the end of the run; ``bounds``: see
+        :meth:`upperBounds`.
+        """
         from yade import O
 
         gas, sample = self.gas, self.folder.summary["sample"]
-        same = {"events": gas.events(), "waterPressure": gas.waterPressure, "title": self.case["case"]["title"],
-                "startTime": sample["startTime [s]"], "breakthroughIter": gas.breakthroughIter}
+        same = {
+            "events": gas.events(),
+            "waterPressure": gas.waterPressure,
+            "title": self.case["case"]["title"],
+            "startTime": sample["startTime [s]"],
+            "breakthroughIter": gas.breakthroughIter,
+        }
         levels = {**levels, "time": [O.time - (O.iter - iteration) * O.dt for iteration in levels["iteration"]]}
-        curve.drawCapillaryCurve(levels, self.folder.path / "curve.png", bondCount=sample["bondsHolding"],
-                                 breakthroughPressure=gas.breakthroughPressure, history=course,
-                                 over="pressure" if self.ramped else "time",
-                                 breakthroughAtStart="breakthroughPressure" in bounds, **same)
+        curve.drawCapillaryCurve(
+            levels,
+            self.folder.path / "curve.png",
+            bondCount=sample["bondsHolding"],
+            breakthroughPressure=gas.breakthroughPressure,
+            history=course,
+            over="pressure" if self.ramped else "time",
+            breakthroughAtStart="breakthroughPressure" in bounds,
+            **same,
+        )
         history.drawHistory(course, self.folder.path / "history.png", **same)
 
     def finish(self, reason):
@@ -287,25 +368,49 @@ class Run:
         levels, course = history.levelsToTheEnd(gas, last), history.courseToTheEnd(gas, last)
         self.folder.writeLogs(gas, levels, course)
         modes = self.modes()
-        saturation = {f"capillaryPressureAt{share:.0%} [Pa]": next(
-            (p - gas.waterPressure for p, s, done in zip(levels["pressure"], levels["gasSaturation"], levels["finished"])
-             if s >= share and done), None) for share in (0.5, 0.9, 0.97)}
-        bounds = self.upperBounds({**{name: modes["mode"][name] for name in ("initiationPressure", "breakthroughPressure")},
-                                   **saturation})
+        saturation = {
+            f"capillaryPressureAt{share:.0%} [Pa]": next(
+                (
+                    p - gas.waterPressure
+                    for p, s, done in zip(levels["pressure"], levels["gasSaturation"], levels["finished"])
+                    if s >= share and done
+                ),
+                None,
+            )
+            for share in (0.5, 0.9, 0.97)
+        }
+        bounds = self.upperBounds(
+            {**{name: modes["mode"][name] for name in ("initiationPressure", "breakthroughPressure")}, **saturation}
+        )
         pictures = self.case["output"]["pictures"] != "none"
         if pictures:
             self.drawCourse(levels, course, bounds)
         results = {
-            "saturation": saturation, "upperBounds": bounds, "displacementWithRattlersAtEnd [r]": float(moved.max()),
-            "largestDisplacementAtEnd [r]": modes["modeAtEnd"]["largestDisplacement"], "remeshes": gas.nRemeshes,
+            "saturation": saturation,
+            "upperBounds": bounds,
+            "displacementWithRattlersAtEnd [r]": float(moved.max()),
+            "largestDisplacementAtEnd [r]": modes["modeAtEnd"]["largestDisplacement"],
+            "remeshes": gas.nRemeshes,
             "forceNetwork": mode.forceNetworkChange(self.start, last),
-            "ledger [m^3]": dict(gas.volumes()), "iterations": last.iteration}
+            "ledger [m^3]": dict(gas.volumes()),
+            "iterations": last.iteration,
+        }
         highest = max([*course["gasPressure"], *gas.events()["gasPressure"], last.gasPressure])
-        results["gas"] = {**{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
-                          "highestCapillaryPressure [Pa]": highest - gas.waterPressure}
+        results["gas"] = {
+            **{f"{name} [kg]" if name != "error" else name: value for name, value in gas.gasLedger().items()},
+            "highestCapillaryPressure [Pa]": highest - gas.waterPressure,
+        }
         diagnostics = fracture.reportRun(self.folder.path, gas.openingThreshold, self.folder.writeWhole, pictures)
-        self.folder.writeSummary(state="finished", ended=reason, **modes, rule=mode.RULE, ruleByThroats=mode.RULE_BY_THROATS, results=results,
-                                 fracture=diagnostics, **self.cost())
+        self.folder.writeSummary(
+            state="finished",
+            ended=reason,
+            **modes,
+            rule=mode.RULE,
+            ruleByThroats=mode.RULE_BY_THROATS,
+            results=results,
+            fracture=diagnostics,
+            **self.cost(),
+        )
         self.folder.checkpoint.unlink(missing_ok=True)
 
 
@@ -315,12 +420,19 @@ def versions():
 
     import capfrac
 
-    return {"capfrac": capfrac.__version__, "yade": config.version, "yadeFeatures": list(config.features), "python": platform.python_version(),
-            "numpy": np.__version__, "machine": platform.machine()}
+    return {
+        "capfrac": capfrac.__version__,
+        "yade": config.version,
+        "yadeFeatures": list(config.features),
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "machine": platform.machine(),
+    }
 
 
-def inject(case, folder, restart=False, report=print, bar=lambda pressure, saturation: None, replaceScene=False,
-           threads=None):
+def inject(
+    case, folder, restart=False, report=print, bar=lambda pressure, saturation: None, replaceScene=False, threads=None
+):
     """Run a case into a run folder and return its summary (a dict, the content of summary.json).
 
     ``case``: a name of a shipped case, a path, a resolved case, or a dict of sections, which stays as it is. A folder
@@ -338,7 +450,10 @@ def inject(case, folder, restart=False, report=print, bar=lambda pressure, satur
 
     case = resolveCase(case) if isinstance(case, dict) else readCase(case)
     if len(O.bodies) and not replaceScene:
-        raise SceneError(f"the scene holds {len(O.bodies)} bodies; call O.reset() first, or inject(..., replaceScene=True) to let them go")
+        raise SceneError(
+            f"the scene holds {len(O.bodies)} bodies; call O.reset() first, or inject(..., replaceScene=True) to let"
+            " them go"
+        )
     warnings = [*case["case"].get("warnings", ()), *checkPacking(case)]
     runFolder = RunFolder(folder, case, restart, namedfiles.digests(case, case["case"].get("folder", ".")))
     if runFolder.finished:

@@ -49,7 +49,9 @@ class Key:
         """What the key allows, in words."""
         if self.choices:
             return ", ".join(f"'{choice}'" for choice in self.choices)
-        words = {int: "a whole number", float: "a number", str: "a text", bool: "true or false", list: "a list"}[self.kind]
+        words = {int: "a whole number", float: "a number", str: "a text", bool: "true or false", list: "a list"}[
+            self.kind
+        ]
         number = "d" if self.kind is int else "g"
         if self.low is not None:
             words += f" {'>' if self.openLow else '>='} {self.low:{number}}"
@@ -192,8 +194,10 @@ def _idle(key, sound):
         why = conditions.asItIs(condition, sound)
         value = str(value).lower() if isinstance(value, bool) else shown(value)
         only = f"it has an effect only {conditions.inWords(condition)}"
-        yield (f"{key.path} = {value}, allowed: {_asText(key.default)} {why}; {only}",
-               f"{key.path} = {value} is ignored {why}: {only}")
+        yield (
+            f"{key.path} = {value}, allowed: {_asText(key.default)} {why}; {only}",
+            f"{key.path} = {value} is ignored {why}: {only}",
+        )
 
 
 def _asText(default):
@@ -206,7 +210,10 @@ def _asText(default):
 
 def sections(keys):
     """Keys by section and name."""
-    return {section: {key.name: key for key in keys if key.section == section} for section in dict.fromkeys(key.section for key in keys)}
+    return {
+        section: {key.name: key for key in keys if key.section == section}
+        for section in dict.fromkeys(key.section for key in keys)
+    }
 
 
 def didYouMean(name, known):

@@ -1,13 +1,14 @@
 """Capillary invasion or fracture? The mode of an injection as numbers, and the rule that names it.
 
-The rule looks at one state of the sample, the breakthrough of the gas to the outlet, and compares it with the start. It asks two
-questions (:mod:`capfrac.fracture.passage`). Past which throats does the gas hang together from the inlet to the outlet, those that grains
-have opened or those that are as they were? And how much of the gas stands in room that grains made, rather than in room that was water's?
-Neither hangs on the moment at which gas entered a throat, nor on what a single grain does: so a crack counts whose throats opened
-behind the front, and a grain that slips into a void does not.
+The rule looks at one state of the sample, the breakthrough of the gas to the outlet, and compares it with the start. It
+asks two questions (:mod:`capfrac.fracture.passage`). Past which throats does the gas hang together from the inlet to
+the outlet, those that grains have opened or those that are as they were? And how much of the gas stands in room that
+grains made, rather than in room that was water's? Neither hangs on the moment at which gas entered a throat, nor on
+what a single grain does: so a crack counts whose throats opened behind the front, and a grain that slips into a void
+does not.
 
-Where gas did not reach an outlet the state is that at the end of the run, and the way that to the gas farthest from the inlet. All
-numbers of a :class:`Mode` are of that one state, which it names, but those whose names say otherwise.
+Where gas did not reach an outlet the state is that at the end of the run, and the way that to the gas farthest from the
+inlet. All numbers of a :class:`Mode` are of that one state, which it names, but those whose names say otherwise.
 
 An older rule, by the throats as they were when gas entered them and by the grain that moved farthest, is kept beside it
 (``modeByThroats``).
@@ -24,9 +25,9 @@ from capfrac.errors import CaseError, RunFolderError
 from capfrac.fracture.passage import findPassage
 from capfrac.fracture.report import readEvents
 
-#: Bounds of the rule: shares of the opened throats on the way, share of the gas in room that grains made, displacement of nine tenths of the grains over their radius [-].
-#: Room: were every contact around the gas widened by 0.01 mean radii, from where on a throat has opened, the region would grow by 1 % of
-#: its area, a twentieth of its void.
+#: Bounds of the rule: shares of the opened throats on the way, share of the gas in room that grains made, displacement
+#: of nine tenths of the grains over their radius [-]. Room: were every contact around the gas widened by 0.01 mean
+#: radii, from where on a throat has opened, the region would grow by 1 % of its area, a twentieth of its void.
 RIGID_WAY, OPENED_WAY, STRETCHED_ROOM, UNMOVED = 0.5, 0.75, 0.05, 0.1
 #: Share of the gas in room that grains made from which on the way does not matter: most of the gas stands there [-].
 MOST_ROOM = 0.5
@@ -34,28 +35,30 @@ MOST_ROOM = 0.5
 FEW_OPENED, MOST_OPENED, RIGID_DISPLACEMENT, OPEN_DISPLACEMENT = 0.1, 0.5, 0.1, 1.0
 
 RULE = (
-    f"fracture: at least {MOST_ROOM:.0%} of the gas stands in room that grains made; or grains have opened at least {OPENED_WAY:.0%} of the "
-    "throats on the way of the gas from the inlet to the outlet that passes the fewest unopened ones, and more than "
-    f"{STRETCHED_ROOM:.0%} of the gas stands in such room. "
-    f"capillary: at most {RIGID_WAY:.0%} of the throats on that way have been opened, at most {STRETCHED_ROOM:.0%} of the gas stands in room "
-    f"that grains made, and nine tenths of the grains that bear load have moved by at most {UNMOVED:g} of their radius. "
-    "none: no pore was invaded, and no more room made than that. mixed: all else."
+    f"fracture: at least {MOST_ROOM:.0%} of the gas stands in room that grains made; or grains have opened at least"
+    f" {OPENED_WAY:.0%} of the throats on the way of the gas from the inlet to the outlet that passes the fewest"
+    f" unopened ones, and more than {STRETCHED_ROOM:.0%} of the gas stands in such room. capillary: at most"
+    f" {RIGID_WAY:.0%} of the throats on that way have been opened, at most {STRETCHED_ROOM:.0%} of the gas stands in"
+    f" room that grains made, and nine tenths of the grains that bear load have moved by at most {UNMOVED:g} of their"
+    " radius. none: no pore was invaded, and no more room made than that. mixed: all else."
 )
 RULE_BY_THROATS = (
-    f"fracture: at least {MOST_OPENED:.0%} of the invaded throats had opened when gas entered them, or a loaded grain was pushed "
-    f"{OPEN_DISPLACEMENT:g} radius or farther. "
-    f"capillary: at most {FEW_OPENED:.0%} had opened and no loaded grain moved more than {RIGID_DISPLACEMENT} of its radius. "
-    "mixed: all else. none: no pore was invaded."
+    f"fracture: at least {MOST_OPENED:.0%} of the invaded throats had opened when gas entered them, or a loaded grain"
+    f" was pushed {OPEN_DISPLACEMENT:g} radius or farther. capillary: at most {FEW_OPENED:.0%} had opened and no loaded"
+    f" grain moved more than {RIGID_DISPLACEMENT} of its radius. mixed: all else. none: no pore was invaded."
 )
 
 
 @dataclass
 class Mode:
-    """Measures of the mode of an injection, of the state that ``moment`` names. Displacements are since the start, over the grain's radius."""
+    """Measures of the mode of an injection, of the state that ``moment`` names. Displacements are since the start, over
+    the grain's radius.
+    """
 
     mode: str  #: 'capillary', 'fracture', 'mixed' or 'none', by ``RULE``
     modeByThroats: str  #: of the run, by ``RULE_BY_THROATS``: at the breakthrough, or at the end without one
-    moment: str  #: the state: 'breakthrough', 'rest' after it, 'end' of the run, 'checkpoint' of one that is not finished, or 'now'
+    #: the state: 'breakthrough', 'rest' after it, 'end' of the run, 'checkpoint' of one that is not finished, or 'now'
+    moment: str
     iteration: int  #: time steps of YADE when that was [-]
     capillaryPressure: float  #: then [Pa]
     gasSaturation: float  #: share of the void that held gas then [-]
@@ -99,10 +102,11 @@ def classifyByThroats(openedShare, largestDisplacement, invadedThroats):
 
 
 def modeOf(now, start, events, outlet="top", openingThreshold=0.01, moment="end", last=None):
-    """The :class:`Mode` in the snapshot ``now``; ``start`` is the one before the injection, ``last`` that at the end (None: ``now``).
+    """The :class:`Mode` in the snapshot ``now``; ``start`` is the one before the injection, ``last`` that at the end
+    (None: ``now``).
 
-    ``events``: the columns ``iteration``, ``capillaryPressure [Pa]`` and ``kind`` of events.csv, of which those until ``now`` count. ``outlet``
-    and ``openingThreshold`` as in :func:`capfrac.fracture.passage.findPassage`, errors, too.
+    ``events``: the columns ``iteration``, ``capillaryPressure [Pa]`` and ``kind`` of events.csv, of which those until
+    ``now`` count. ``outlet`` and ``openingThreshold`` as in :func:`capfrac.fracture.passage.findPassage`, errors, too.
     """
     passage = findPassage(now, start, outlet, openingThreshold)
     until = [k for k, iteration in enumerate(events["iteration"]) if iteration < now.iteration]
@@ -117,25 +121,46 @@ def modeOf(now, start, events, outlet="top", openingThreshold=0.01, moment="end"
     way = passage.fewestRigid
     reached = (pressure[until[-1]] if until else now.capillaryPressure) if moment == "breakthrough" else None
     return Mode(
-        mode=classify(way.opened, way.rigid, passage.madeRoom, most, len(until)), modeByThroats=classifyByThroats(share, largest, len(until)),
-        moment=moment, iteration=now.iteration, capillaryPressure=now.capillaryPressure, gasSaturation=now.gasSaturation,
-        through=passage.through, openedOnWay=way.opened, rigidOnWay=way.rigid, madeRoom=passage.madeRoom,
-        medianDisplacement=median, displacement90=most, largestDisplacement=largest,
-        invadedThroats=len(until), openedThroats=len(opened), openedShare=share, brokenBonds=len(now.brokenBonds),
-        initiationPressure=pressure[opened[0]] if opened else None, breakthroughPressure=reached,
-        finalSaturation=(last or now).gasSaturation)
+        mode=classify(way.opened, way.rigid, passage.madeRoom, most, len(until)),
+        modeByThroats=classifyByThroats(share, largest, len(until)),
+        moment=moment,
+        iteration=now.iteration,
+        capillaryPressure=now.capillaryPressure,
+        gasSaturation=now.gasSaturation,
+        through=passage.through,
+        openedOnWay=way.opened,
+        rigidOnWay=way.rigid,
+        madeRoom=passage.madeRoom,
+        medianDisplacement=median,
+        displacement90=most,
+        largestDisplacement=largest,
+        invadedThroats=len(until),
+        openedThroats=len(opened),
+        openedShare=share,
+        brokenBonds=len(now.brokenBonds),
+        initiationPressure=pressure[opened[0]] if opened else None,
+        breakthroughPressure=reached,
+        finalSaturation=(last or now).gasSaturation,
+    )
 
 
 def measureMode(gas, start=None):
-    """The :class:`Mode` of the scene as it is now, for scripts: ``gas`` is its ``GasInvasionEngine``, ``start`` a snapshot of before the injection.
+    """The :class:`Mode` of the scene as it is now, for scripts: ``gas`` is its ``GasInvasionEngine``, ``start`` a
+    snapshot of before the injection.
 
     Its moment is 'now'. :class:`CaseError` without ``start`` or with one of other grains.
     """
     if start is None:
-        raise CaseError("start is missing; needed: the sample before the injection, start = snapshot.takeSnapshot(gas) before the first step")
+        raise CaseError(
+            "start is missing; needed: the sample before the injection, start = snapshot.takeSnapshot(gas) before the"
+            " first step"
+        )
     now, entries = snapshot.takeSnapshot(gas, start), gas.events()
-    events = {"iteration": entries["iteration"], "capillaryPressure [Pa]": [p - gas.waterPressure for p in entries["gasPressure"]],
-              "kind": ["opened" if opened else "rigid" for opened in entries["opened"]]}
+    events = {
+        "iteration": entries["iteration"],
+        "capillaryPressure [Pa]": [p - gas.waterPressure for p in entries["gasPressure"]],
+        "kind": ["opened" if opened else "rigid" for opened in entries["opened"]],
+    }
     found = modeOf(now, start, events, gas.outletWall, gas.openingThreshold, "now")
     found.breakthroughPressure = gas.breakthroughPressure - gas.waterPressure if gas.breakthroughIter >= 0 else None
     return found
@@ -146,10 +171,12 @@ MODES = ("mode", "modeAtBreakthrough", "modeAtEnd")
 
 
 def modesOfRun(folder, now=None):
-    """The modes of a run, from its folder alone: a dict of ``mode``, the one that counts, ``modeAtBreakthrough`` (None without one) and ``modeAtEnd``.
+    """The modes of a run, from its folder alone: a dict of ``mode``, the one that counts, ``modeAtBreakthrough`` (None
+    without one) and ``modeAtEnd``.
 
-    From the snapshots, events.csv and the parameters in summary.json, so runs of earlier versions of capfrac get the modes of this one.
-    ``now``: the present snapshot of a run that is not finished. :class:`RunFolderError` for a folder that has not all this.
+    From the snapshots, events.csv and the parameters in summary.json, so runs of earlier versions of capfrac get the
+    modes of this one. ``now``: the present snapshot of a run that is not finished. :class:`RunFolderError` for a folder
+    that has not all this.
     """
     folder = Path(folder)
     shots = {name: folder / "snapshots" / f"{name}.npz" for name in ("start", "breakthrough", "rest", "end")}
@@ -159,7 +186,9 @@ def modesOfRun(folder, now=None):
     except (OSError, ValueError, KeyError, TypeError) as problem:
         raise RunFolderError(f"{folder / 'summary.json'} does not have the parameters of a run: {problem}") from None
     if not (shots["start"].exists() and (now is not None or shots["end"].exists())):
-        raise RunFolderError(f"the folder {folder} has no snapshots 'start' and 'end' of a run: not finished, or none of capfrac")
+        raise RunFolderError(
+            f"the folder {folder} has no snapshots 'start' and 'end' of a run: not finished, or none of capfrac"
+        )
     start, events = snapshot.load(shots["start"]), readEvents(folder / "events.csv", integers=("iteration",))
     last, moment = (snapshot.load(shots["end"]), "end") if now is None else (now, "checkpoint")
     measured = {moment: modeOf(last, start, events, outlet, threshold, moment)}
@@ -174,14 +203,18 @@ def modesOfRun(folder, now=None):
 
 
 def summarised(summary, folder):
-    """The modes of a finished run as a dict of dicts: as they stand in its summary, or computed for a run of an earlier version."""
+    """The modes of a finished run as a dict of dicts: as they stand in its summary, or computed for a run of an earlier
+    version.
+    """
     if all(name in summary for name in MODES):
         return {name: summary[name] for name in MODES}
     return {name: found and asdict(found) for name, found in modesOfRun(folder).items()}
 
 
 def asText(numbers, upperBounds=()):
-    """The measures, a :class:`Mode` or the dict of one, as lines for people; those named in ``upperBounds`` are marked."""
+    """The measures, a :class:`Mode` or the dict of one, as lines for people; those named in ``upperBounds`` are
+    marked.
+    """
     numbers = dict(numbers) if isinstance(numbers, dict) else asdict(numbers)
     lines = [f"mode: {numbers.pop('mode')}"]
     for name, value in numbers.items():
@@ -194,9 +227,9 @@ def asText(numbers, upperBounds=()):
 def forceNetworkChange(first, last):
     """How much the network of contact forces differs between two snapshots: a dict.
 
-    ``lost`` and ``gained``: shares of the contacts of ``first`` that are gone, and that are new [-]; contacts that bear less than
-    a hundredth of the mean compression do not count. ``correlation``: of the normal forces over all contacts of either [-];
-    1 for an unchanged network, NaN where it is not defined.
+    ``lost`` and ``gained``: shares of the contacts of ``first`` that are gone, and that are new [-]; contacts that bear
+    less than a hundredth of the mean compression do not count. ``correlation``: of the normal forces over all contacts
+    of either [-]; 1 for an unchanged network, NaN where it is not defined.
     """
 
     def forces(shot):
@@ -210,6 +243,7 @@ def forceNetworkChange(first, last):
     bore, bears = old > least, new > least
     spread = old.std() * new.std() if pairs else 0.0
     return {
-        "lost": float((bore & ~bears).sum() / max(bore.sum(), 1)), "gained": float((bears & ~bore).sum() / max(bore.sum(), 1)),
+        "lost": float((bore & ~bears).sum() / max(bore.sum(), 1)),
+        "gained": float((bears & ~bore).sum() / max(bore.sum(), 1)),
         "correlation": float(((old - old.mean()) * (new - new.mean())).mean() / spread) if spread > 0 else float("nan"),
     }

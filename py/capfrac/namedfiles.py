@@ -10,8 +10,11 @@ from pathlib import Path
 from capfrac.errors import CaseError
 
 #: Keys that name a file: key -> what it is, in messages.
-KINDS = {"grains.packing": "the packing", "grains.sieve": "the sieve curve",
-         "hydrate-ridge.laboratory": "the laboratory curve"}
+KINDS = {
+    "grains.packing": "the packing",
+    "grains.sieve": "the sieve curve",
+    "hydrate-ridge.laboratory": "the laboratory curve",
+}
 
 
 def namedFiles(parameters, folder="."):

@@ -43,9 +43,12 @@ def placeGrains(sample, radii):
 
 
 #: What a packing is made of; z, where it is given, says that the grains lie in a plane.
-COLUMNS = (Column("x", "m"), Column("y", "m"),
-           Column("r", "m", {"radius": "1", "d": "0.5", "diameter": "0.5"}, low=0, openLow=True),
-           Column("z", "m", optional=True))
+COLUMNS = (
+    Column("x", "m"),
+    Column("y", "m"),
+    Column("r", "m", {"radius": "1", "d": "0.5", "diameter": "0.5"}, low=0, openLow=True),
+    Column("z", "m", optional=True),
+)
 
 
 def readPackingTable(path):
@@ -57,8 +60,10 @@ def readPackingTable(path):
     z = table.values.get("z", np.zeros(1))
     apart = np.flatnonzero(np.abs(z - z[0]) > 1e-3 * table.values["r"].min())
     if len(apart):
-        raise CaseError(f"{table.where(apart[0])}: z = {z[apart[0]]:g} m, in line {table.lines[0]} {z[0]:g} m; "
-                        "allowed: one for all, the grains are disks in a plane")
+        raise CaseError(
+            f"{table.where(apart[0])}: z = {z[apart[0]]:g} m, in line {table.lines[0]} {z[0]:g} m; "
+            "allowed: one for all, the grains are disks in a plane"
+        )
     return table
 
 
@@ -80,20 +85,28 @@ def checkOverlaps(x, y, r, table=None):
         j = int(np.argmax(overlap / np.minimum(r[i], r[:i])))
         most = 0.5 * min(r[i], r[j])
         if overlap[j] > most:
-            both = f"grains {j + 1} and {i + 1} of the packing" if table is None else (
-                f"{table.path}, lines {table.lines[j]} and {table.lines[i]}: the grains")
-            raise CaseError(f"{both} overlap by {overlap[j]:.4g} m, allowed: up to half of the smaller radius, "
-                            f"{most:.4g} m")
+            both = (
+                f"grains {j + 1} and {i + 1} of the packing"
+                if table is None
+                else (f"{table.path}, lines {table.lines[j]} and {table.lines[i]}: the grains")
+            )
+            raise CaseError(
+                f"{both} overlap by {overlap[j]:.4g} m, allowed: up to half of the smaller radius, {most:.4g} m"
+            )
 
 
 def hexagonal(count, radius, aspect=1.0):
-    """About ``count`` equal disks of ``radius`` [m] on a triangular lattice, touching, height over width about ``aspect``; (x, y, radii) [m].
+    """About ``count`` equal disks of ``radius`` [m] on a triangular lattice, touching, height over width about
+    ``aspect``; (x, y, radii) [m].
 
-    A material without disorder: every pore deforms like every other. Every second row has a disk less. :class:`CaseError` for fewer than 7 disks.
+    A material without disorder: every pore deforms like every other. Every second row has a disk less.
+    :class:`CaseError` for fewer than 7 disks.
     """
     if not 7 <= (asInt(count) or 0) <= MOST_GRAINS or not isPositive(radius) or not isPositive(aspect):
-        raise CaseError(f"count = {shown(count)}, radius = {shown(radius)} m, aspect = {shown(aspect)}; "
-                        f"allowed: at least 7 disks (up to {MOST_GRAINS}), radius and aspect > 0")
+        raise CaseError(
+            f"count = {shown(count)}, radius = {shown(radius)} m, aspect = {shown(aspect)}; "
+            f"allowed: at least 7 disks (up to {MOST_GRAINS}), radius and aspect > 0"
+        )
     rows = max(3, round(math.sqrt(count * aspect * 2 / math.sqrt(3))))
     columns = max(3, round(count / rows))
     x, y = [], []

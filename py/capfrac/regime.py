@@ -1,9 +1,10 @@
-"""Capillary invasion or fracture, by theory and from tables of runs: pressures of both modes, and the grain size where they change.
+"""Capillary invasion or fracture, by theory and from tables of runs: pressures of both modes, and the grain size where
+they change.
 
 Symbols: r mean grain radius [m], gamma interfacial tension [N/m], sigma'_H the smaller effective stress [Pa], chi the
 cohesion as sigma_c = chi gamma / r [-], a half-length of the gas-filled flaw that a fracture starts from [m]. All
-pressures are capillary pressures p_g - p_w [Pa]. The theory holds for isolated straight flaws in rigid or elastic packs: an
-estimate of scale, not a simulation.
+pressures are capillary pressures p_g - p_w [Pa]. The theory holds for isolated straight flaws in rigid or elastic
+packs: an estimate of scale, not a simulation.
 """
 
 import math
@@ -13,9 +14,11 @@ import numpy as np
 
 from capfrac.errors import CaseError
 
-#: Breakthrough of rigid random packs with r uniform in [r_min, 2 r_min], in gamma / r: percolation through the throats of Eq. 15.
+#: Breakthrough of rigid random packs with r uniform in [r_min, 2 r_min], in gamma / r: percolation through the throats
+#: of Eq. 15.
 RIGID = 4.65
-#: Shape factor of the toughness K_Ic = sigma_c sqrt(pi alpha r) (Potyondy & Cundall 2004): 1 for a square packing without moments [-].
+#: Shape factor of the toughness K_Ic = sigma_c sqrt(pi alpha r) (Potyondy & Cundall 2004): 1 for a square packing
+#: without moments [-].
 ALPHA = 1.0
 _MODES = ("capillary", "mixed", "fracture")
 
@@ -28,14 +31,15 @@ def rigidThreshold(r, gamma):
 def fracturePressure(stressH, chi, r, gamma, a):
     """P_c at which a flaw of half-length ``a`` [m] grows: sigma'_H + chi (gamma/r) sqrt(alpha r / a) [Pa].
 
-    Linear elastic fracture mechanics, K_I = (P_c - sigma'_H) sqrt(pi a) = K_Ic, with the toughness of a bonded pack, whose
-    length is the grain. Without cohesion it is sigma'_H (Jain & Juanes 2008, Eq. 16, for drained water).
+    Linear elastic fracture mechanics, K_I = (P_c - sigma'_H) sqrt(pi a) = K_Ic, with the toughness of a bonded pack,
+    whose length is the grain. Without cohesion it is sigma'_H (Jain & Juanes 2008, Eq. 16, for drained water).
     """
     return stressH + chi * gamma / r * np.sqrt(ALPHA * r / a)
 
 
 def criticalRadius(stressH, chi, gamma, aOverR):
-    """Mean radius r* [m] at which both pressures are equal, gamma (4.65 - chi sqrt(alpha r/a)) / sigma'_H; 0 where there is none.
+    """Mean radius r* [m] at which both pressures are equal, gamma (4.65 - chi sqrt(alpha r/a)) / sigma'_H; 0 where
+    there is none.
 
     ``aOverR``: half-length of the flaw in mean radii [-]. Finer sediment fractures; with a flaw shorter than
     (chi/4.65)^2 alpha r it is tougher than its throats are tight at any size, so none does.
@@ -45,7 +49,9 @@ def criticalRadius(stressH, chi, gamma, aOverR):
 
 @dataclass
 class Change:
-    """Where fracture ends, as grains become coarser, in a set of runs; abscissas in the unit that they were given in."""
+    """Where fracture ends, as grains become coarser, in a set of runs; abscissas in the unit that they were
+    given in.
+    """
 
     radius: float  #: r*: above it fewer than half of the runs fracture; NaN where the runs do not bracket it
     low: float  #: largest abscissa up to which all runs fracture; NaN if there is none
@@ -55,11 +61,12 @@ class Change:
 
 
 def modeChange(abscissa, modes):
-    """The :class:`Change` in runs with this abscissa (radii, or any measure that grows with them; > 0) and modes (texts as of ``capfrac.mode``).
+    """The :class:`Change` in runs with this abscissa (radii, or any measure that grows with them; > 0) and modes (texts
+    as of ``capfrac.mode``).
 
-    r* is where a logistic curve in ln(abscissa), fitted by maximum likelihood to fracture (1) or not (0), is one half. Where all
-    finer runs fracture and no coarser one does, that curve is a step anywhere in the gap: r* is its (logarithmic) middle then.
-    Runs of mode 'none' do not count.
+    r* is where a logistic curve in ln(abscissa), fitted by maximum likelihood to fracture (1) or not (0), is one half.
+    Where all finer runs fracture and no coarser one does, that curve is a step anywhere in the gap: r* is its
+    (logarithmic) middle then. Runs of mode 'none' do not count.
     """
     known = [(math.log(x), mode) for x, mode in zip(abscissa, modes) if mode in _MODES]
     x, y = np.array([place for place, _ in known]), np.array([float(mode == "fracture") for _, mode in known])
@@ -83,10 +90,11 @@ def _head(x, share):
 
 
 def crossing(abscissa, values, level):
-    """Where values that fall with the abscissa go through ``level``: linear in logarithms between neighbouring abscissas; all > 0.
+    """Where values that fall with the abscissa go through ``level``: linear in logarithms between neighbouring
+    abscissas; all > 0.
 
-    Values at the same abscissa (to a thousandth of a decade) are replaced by their geometric mean. Of several crossings the one at the largest
-    abscissa; NaN if there is none.
+    Values at the same abscissa (to a thousandth of a decade) are replaced by their geometric mean. Of several crossings
+    the one at the largest abscissa; NaN if there is none.
     """
     places = {}
     for x, value in zip(abscissa, values):
@@ -100,7 +108,9 @@ def crossing(abscissa, values, level):
 
 
 def _logisticMiddle(x, y):
-    """Where a falling logistic curve through (x, y), y in [0, 1], is one half: maximum likelihood over middle and width."""
+    """Where a falling logistic curve through (x, y), y in [0, 1], is one half: maximum likelihood over middle and
+    width.
+    """
     middles, widths = np.meshgrid(np.linspace(x.min(), x.max(), 801), np.geomspace(0.02, 5, 60))
     argument = (x - middles[..., None]) / widths[..., None]
     loss = y * np.logaddexp(0, argument) + (1 - y) * np.logaddexp(0, -argument)

@@ -2,11 +2,13 @@
 
     summary.json          versions, parameters, seed, results, state of the run
     events.csv            every pore that gas entered: when, where, through which throat, at which pressure
-    pc_saturation.csv     every pressure level: capillary pressure, saturation, bonds, displacement; the last may be unfinished when the run ends
+    pc_saturation.csv     every pressure level: capillary pressure, saturation, bonds, displacement; the last may be
+                          unfinished when the run ends
     history.csv           the course in time: gas pressure, volume and mass of the gas, saturation, broken bonds
     fracture.json         branches, tips, apertures, directions, broken bonds at initiation, breakthrough and end
     fracture.csv          how the tips advanced, event by event
-    snapshots/            the states that pictures are drawn from (.npz), the stresses of the grains, and the pictures (.png)
+    snapshots/            the states that pictures are drawn from (.npz), the stresses of the grains, and the pictures
+                          (.png)
     fields/               fields for ParaView: open the .pvd files
     checkpoint.yade.gz    the scene of the last checkpoint; only while the run is not finished
 
@@ -109,7 +111,9 @@ def holdingInterrupts():
 
 
 def putInPlace(aside, target, write):
-    """Let ``write(aside)`` write a file and move it to ``target`` at once; both in one folder. Raises :class:`RunFolderError` where that fails."""
+    """Let ``write(aside)`` write a file and move it to ``target`` at once; both in one folder. Raises
+    :class:`RunFolderError` where that fails.
+    """
     try:
         write(aside)
         os.replace(aside, target)
@@ -126,8 +130,18 @@ class RunFolder:
     """
 
     #: What a run writes: files, folders, and endings of the files in those folders.
-    FILES = ("events.csv", "pc_saturation.csv", "curve.png", "history.csv", "history.png", "checkpoint.yade.gz", "fracture.json", "fracture.csv", "fracture.png",
-             "stress.png")
+    FILES = (
+        "events.csv",
+        "pc_saturation.csv",
+        "curve.png",
+        "history.csv",
+        "history.png",
+        "checkpoint.yade.gz",
+        "fracture.json",
+        "fracture.csv",
+        "fracture.png",
+        "stress.png",
+    )
     FOLDERS = ("snapshots", "fields")
     SUFFIXES = (".npz", ".png", ".vtu", ".pvd")
 
@@ -144,14 +158,22 @@ class RunFolder:
             raise RunFolderError(f"the run folder {self.path} cannot be written: {problem.strerror}") from None
         self.summary = self._readSummary()
         # A run that was killed may leave a file that it was about to put in its place (see writeWhole).
-        foreign = [entry.name for entry in self.path.iterdir() if not _ASIDE.fullmatch(entry.name)] if not self.summary else []
+        foreign = (
+            [entry.name for entry in self.path.iterdir() if not _ASIDE.fullmatch(entry.name)]
+            if not self.summary
+            else []
+        )
         if foreign:
-            raise RunFolderError(f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or new one")
+            raise RunFolderError(
+                f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or"
+                " new one"
+            )
         if restart:
             self.clear()
         elif self.summary and (held := difference(self.summary, case, self.files)):
-            raise RunFolderError(f"the run folder {self.path} holds {held}; choose another folder, or --restart to "
-                                 "discard that run")
+            raise RunFolderError(
+                f"the run folder {self.path} holds {held}; choose another folder, or --restart to discard that run"
+            )
 
     def _readSummary(self):
         path = self.path / "summary.json"
@@ -187,7 +209,9 @@ class RunFolder:
         for folder in folders:
             written += [entry for entry in folder.iterdir() if entry.suffix in self.SUFFIXES]
         try:
-            for entry in written + [self.path / "summary.json"]:  # the summary last: without it the rest would be foreign
+            for entry in written + [
+                self.path / "summary.json"
+            ]:  # the summary last: without it the rest would be foreign
                 entry.unlink(missing_ok=True)
             for folder in folders:
                 if not any(folder.iterdir()):
@@ -238,25 +262,57 @@ class RunFolder:
         self.writeWhole(name, write)
 
     def writeLogs(self, gas, levels=None, history=None):
-        """Write events.csv, pc_saturation.csv and history.csv from the engine's logs; ``levels`` and ``history``: those of a run that has ended."""
+        """Write events.csv, pc_saturation.csv and history.csv from the engine's logs; ``levels`` and ``history``: those
+        of a run that has ended.
+        """
         e, levels, history = gas.events(), levels or gas.levels(), history or gas.history()
-        self.writeTable("events.csv", {
-            "event": list(range(1, len(e["time"]) + 1)), "time [s]": e["time"], "iteration": e["iteration"], "level": e["level"],
-            "capillaryPressure [Pa]": [p - gas.waterPressure for p in e["gasPressure"]],
-            "throat": ["-".join(map(str, ids)) for ids in e["throat"]], "pore": ["-".join(map(str, ids)) for ids in e["pore"]],
-            "x [m]": e["x"], "y [m]": e["y"], "entryPressure [Pa]": e["entryPressure"], "gap [m]": e["gap"], "gapGrowth [m]": e["gapGrowth"],
-            "bondBroken": [int(b) for b in e["bondBroken"]], "kind": ["opened" if o else "rigid" for o in e["opened"]],
-            "cells": e["cells"], "volume [m^3]": e["volume"],
-        })
-        self.writeTable("pc_saturation.csv", {
-            "level": list(range(1, len(levels["pressure"]) + 1)), "capillaryPressure [Pa]": [p - gas.waterPressure for p in levels["pressure"]],
-            "gasSaturation": levels["gasSaturation"], "gasVolume [m^3]": levels["gasVolume"], "brokenBonds": levels["brokenBonds"],
-            "displacement [r]": levels["displacement"], "displacementWithRattlers [r]": levels["displacementWithRattlers"],
-            "unbalanced": levels["unbalanced"], "atRest": [int(rest) for rest in levels["atRest"]], "iteration": levels["iteration"],
-            "finished": [int(done) for done in levels.get("finished", [True] * len(levels["pressure"]))],
-        })
-        self.writeTable("history.csv", {
-            "time [s]": history["time"], "iteration": history["iteration"], "capillaryPressure [Pa]": [p - gas.waterPressure for p in history["gasPressure"]],
-            "connectedVolume [m^3]": history["connectedVolume"], "mass [kg]": history["mass"], "gasSaturation": history["gasSaturation"],
-            "brokenBonds": history["brokenBonds"], "level": history["level"],
-        })
+        self.writeTable(
+            "events.csv",
+            {
+                "event": list(range(1, len(e["time"]) + 1)),
+                "time [s]": e["time"],
+                "iteration": e["iteration"],
+                "level": e["level"],
+                "capillaryPressure [Pa]": [p - gas.waterPressure for p in e["gasPressure"]],
+                "throat": ["-".join(map(str, ids)) for ids in e["throat"]],
+                "pore": ["-".join(map(str, ids)) for ids in e["pore"]],
+                "x [m]": e["x"],
+                "y [m]": e["y"],
+                "entryPressure [Pa]": e["entryPressure"],
+                "gap [m]": e["gap"],
+                "gapGrowth [m]": e["gapGrowth"],
+                "bondBroken": [int(b) for b in e["bondBroken"]],
+                "kind": ["opened" if o else "rigid" for o in e["opened"]],
+                "cells": e["cells"],
+                "volume [m^3]": e["volume"],
+            },
+        )
+        self.writeTable(
+            "pc_saturation.csv",
+            {
+                "level": list(range(1, len(levels["pressure"]) + 1)),
+                "capillaryPressure [Pa]": [p - gas.waterPressure for p in levels["pressure"]],
+                "gasSaturation": levels["gasSaturation"],
+                "gasVolume [m^3]": levels["gasVolume"],
+                "brokenBonds": levels["brokenBonds"],
+                "displacement [r]": levels["displacement"],
+                "displacementWithRattlers [r]": levels["displacementWithRattlers"],
+                "unbalanced": levels["unbalanced"],
+                "atRest": [int(rest) for rest in levels["atRest"]],
+                "iteration": levels["iteration"],
+                "finished": [int(done) for done in levels.get("finished", [True] * len(levels["pressure"]))],
+            },
+        )
+        self.writeTable(
+            "history.csv",
+            {
+                "time [s]": history["time"],
+                "iteration": history["iteration"],
+                "capillaryPressure [Pa]": [p - gas.waterPressure for p in history["gasPressure"]],
+                "connectedVolume [m^3]": history["connectedVolume"],
+                "mass [kg]": history["mass"],
+                "gasSaturation": history["gasSaturation"],
+                "brokenBonds": history["brokenBonds"],
+                "level": history["level"],
+            },
+        )

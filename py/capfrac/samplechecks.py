@@ -35,9 +35,11 @@ def stressesAmiss(vertical, horizontal, names=("stressV", "stressH")):
     """What is wrong with the stresses [Pa] of a sample that is to settle; a text, or none. ``names``: of the two."""
     ratio = max(vertical, horizontal) / min(vertical, horizontal)
     if ratio >= UNBEARABLE_RATIO:
-        yield (f"{names[0]} = {vertical:g} Pa, {names[1]} = {horizontal:g} Pa, a ratio of {ratio:.3g}; allowed: less "
-               f"than {UNBEARABLE_RATIO:g}. Disks that are not bonded yet flow under more, whatever their friction "
-               f"(Mohr and Coulomb); most samples bear {BEARABLE_RATIO:g}")
+        yield (
+            f"{names[0]} = {vertical:g} Pa, {names[1]} = {horizontal:g} Pa, a ratio of {ratio:.3g}; allowed: less "
+            f"than {UNBEARABLE_RATIO:g}. Disks that are not bonded yet flow under more, whatever their friction "
+            f"(Mohr and Coulomb); most samples bear {BEARABLE_RATIO:g}"
+        )
 
 
 def overlapAmiss(name, stress, rMin, rMax, normalStiffness):
@@ -45,9 +47,11 @@ def overlapAmiss(name, stress, rMin, rMax, normalStiffness):
     overlap = stress * 2 * rMax / normalStiffness
     if overlap > 0.1 * rMin:
         limit = 0.05 * normalStiffness * rMin / rMax
-        yield (f"{name} = {stress:g} Pa is out of reach: contacts of stiffness {normalStiffness:g} N/m would overlap "
-               f"by {overlap / rMin:.2g} of the smallest radius; allowed: up to {limit:g} Pa, or a larger "
-               "normalStiffness")
+        yield (
+            f"{name} = {stress:g} Pa is out of reach: contacts of stiffness {normalStiffness:g} N/m would overlap "
+            f"by {overlap / rMin:.2g} of the smallest radius; allowed: up to {limit:g} Pa, or a larger "
+            "normalStiffness"
+        )
 
 
 def aspectAmiss(aspect, area, mean, largest, name="aspect"):
@@ -58,8 +62,10 @@ def aspectAmiss(aspect, area, mean, largest, name="aspect"):
     """
     low, high = min(1.0, (4 * mean) ** 2 / area), max(1.0, area / (4 * largest) ** 2)
     if not low <= aspect <= high:
-        yield (f"{name} = {aspect:g}, allowed: {low:.2g} to {high:.2g} for so many grains, two layers of mean grains "
-               "to two of the largest side by side")
+        yield (
+            f"{name} = {aspect:g}, allowed: {low:.2g} to {high:.2g} for so many grains, two layers of mean grains "
+            "to two of the largest side by side"
+        )
 
 
 class Flow:
@@ -84,7 +90,8 @@ class Flow:
             f"the sample flows under sigma_V = {stressV:g} Pa (stress.vertical), sigma_H = {stressH:g} Pa "
             f"(stress.horizontal), a ratio of {ratio:.3g}: the box went from {boxes[0]} to {boxes[1]}, a side grew by "
             f"{growth:.0%}; allowed: {allowed:.0%}. Unbonded disks (friction {friction:g}) bear a ratio of about "
-            f"{BEARABLE_RATIO:g}: bring the two nearer together")
+            f"{BEARABLE_RATIO:g}: bring the two nearer together"
+        )
 
 
 def forceNetwork():
@@ -104,15 +111,22 @@ def forceNetwork():
     grains = {body.id for body in O.bodies if isinstance(body.shape, Sphere)}
     loaded = _backbone(neighbours, grains)
     ends = [other for grain in loaded for other in neighbours[grain] if other in loaded or other not in grains]
-    return {"grains": len(grains), "loaded": len(loaded), "constraints": len(ends) / max(1, len(loaded)),
-            "spans": all(_leads(neighbours, loaded, *pair) for pair in _wallPairs())}
+    return {
+        "grains": len(grains),
+        "loaded": len(loaded),
+        "constraints": len(ends) / max(1, len(loaded)),
+        "spans": all(_leads(neighbours, loaded, *pair) for pair in _wallPairs()),
+    }
 
 
 def _backbone(neighbours, grains):
     loaded, weak = set(grains), {None}
     while weak:
-        weak = {grain for grain in loaded
-                if sum(other in loaded or other not in grains for other in neighbours.get(grain, ())) < 2}
+        weak = {
+            grain
+            for grain in loaded
+            if sum(other in loaded or other not in grains for other in neighbours.get(grain, ())) < 2
+        }
         loaded -= weak
     return loaded
 
@@ -142,8 +156,10 @@ def checkCarried():
     found = forceNetwork()
     told = f"{found['loaded']} of {found['grains']} grains bear load, with {found['constraints']:.3g} constraints each"
     if found["loaded"] < LEAST_LOADED * found["grains"] or found["constraints"] < LEAST_CONSTRAINTS:
-        raise SampleError(f"the sample is no pack: {told}; allowed: at least {LEAST_LOADED:.0%} of the grains, "
-                          f"{LEAST_CONSTRAINTS} constraints")
+        raise SampleError(
+            f"the sample is no pack: {told}; allowed: at least {LEAST_LOADED:.0%} of the grains, "
+            f"{LEAST_CONSTRAINTS} constraints"
+        )
     if not found["spans"]:
         raise SampleError(f"the load does not go through the sample from wall to wall: {told}")
 

@@ -36,8 +36,10 @@ class Sediment:
 
     grainCount: int = 300  #: number of grains [-], >= 1
     rMin: float = 1e-3  #: smallest radius [m], > 0
-    rMax: float | None = None  #: largest radius [m], >= rMin; default 5/3 rMin, as in most of the paper (its invasion tests take 2 rMin)
-    grading: object = None  #: size distribution of :mod:`capfrac.grading`; gives rMin and rMax. Default: uniform in [rMin, rMax]
+    #: largest radius [m], >= rMin; default 5/3 rMin, as in most of the paper (its invasion tests take 2 rMin)
+    rMax: float | None = None
+    #: size distribution of :mod:`capfrac.grading`; gives rMin and rMax. Default: uniform in [rMin, rMax]
+    grading: object = None
     seed: int = 1  #: of all random numbers [-], >= 0
     density: float = 2650.0  #: of the grains [kg/m^3], > 0
     normalStiffness: float = 1e7  #: k_n [N/m], > 0
@@ -73,8 +75,10 @@ class Sediment:
         except OverflowError:
             steps = [math.inf]
         if not all(map(isPositive, steps)):
-            yield (f"rMin = {self.rMin} m, rMax = {self.rMax} m, density = {self.density} kg/m^3, normalStiffness = "
-                   f"{self.normalStiffness} N/m: no mass or period that numbers hold; allowed: values of grains")
+            yield (
+                f"rMin = {self.rMin} m, rMax = {self.rMax} m, density = {self.density} kg/m^3, normalStiffness = "
+                f"{self.normalStiffness} N/m: no mass or period that numbers hold; allowed: values of grains"
+            )
 
 
 #: Upper ends of what is counted.
@@ -104,27 +108,49 @@ def buildScene(sample, x, y, radii, box):
     """Fill YADE's empty scene with disks and four walls, engines for dry grains and a safe time step.
 
     ``box`` is (left, right, bottom, top) [m]. The labels ``bonds`` (contact functor), ``servo`` (wall servo, dead) and
-    ``newton`` are set. Raises :class:`SceneError` when the scene holds bodies already, :class:`CaseError` naming a grain
-    (counted from 1) that lies outside of the box or is none.
+    ``newton`` are set. Raises :class:`SceneError` when the scene holds bodies already, :class:`CaseError` naming a
+    grain (counted from 1) that lies outside of the box or is none.
     """
     from yade import O, Sphere, utils
-    from yade.wrapper import (Bo1_Sphere_Aabb, Bo1_Wall_Aabb, DiskMat, ForceResetter, Ig2_Sphere_Sphere_ScGeom6D,
-                              Ig2_Wall_Sphere_ScGeom6D, InsertionSortCollider, InteractionLoop,
-                              Ip2_DiskMat_DiskMat_CohFrictPhys, Ip2_WallMat_DiskMat_CohFrictPhys,
-                              Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
-                              NewtonIntegrator, WallMat, WallServoEngine)
+    from yade.wrapper import (
+        Bo1_Sphere_Aabb,
+        Bo1_Wall_Aabb,
+        DiskMat,
+        ForceResetter,
+        Ig2_Sphere_Sphere_ScGeom6D,
+        Ig2_Wall_Sphere_ScGeom6D,
+        InsertionSortCollider,
+        InteractionLoop,
+        Ip2_DiskMat_DiskMat_CohFrictPhys,
+        Ip2_WallMat_DiskMat_CohFrictPhys,
+        Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+        NewtonIntegrator,
+        WallMat,
+        WallServoEngine,
+    )
 
     if len(O.bodies) > 0:
         raise SceneError(f"the scene holds {len(O.bodies)} bodies already; call O.reset() first if they are not needed")
     left, right, bottom, top = box
     for number, (xi, yi, ri) in enumerate(zip(x, y, radii), start=1):
         if not (math.isfinite(ri) and ri > 0 and left < xi < right and bottom < yi < top):
-            raise CaseError(f"grain {number} has x = {xi:g}, y = {yi:g}, r = {ri:g} m; allowed: r > 0, the centre in the box "
-                            f"[{left:g}, {right:g}] x [{bottom:g}, {top:g}]")
-    grainMat = DiskMat(density=sample.density, frictionAngle=math.atan(sample.friction), label="grains",
-                       normalStiffness=sample.normalStiffness, shearStiffness=sample.shearStiffness)
-    wallMat = WallMat(frictionAngle=math.atan(sample.wallFriction), normalStiffness=sample.normalStiffness,
-                      shearStiffness=sample.shearStiffness, label="walls")
+            raise CaseError(
+                f"grain {number} has x = {xi:g}, y = {yi:g}, r = {ri:g} m; allowed: r > 0, the centre in the box "
+                f"[{left:g}, {right:g}] x [{bottom:g}, {top:g}]"
+            )
+    grainMat = DiskMat(
+        density=sample.density,
+        frictionAngle=math.atan(sample.friction),
+        label="grains",
+        normalStiffness=sample.normalStiffness,
+        shearStiffness=sample.shearStiffness,
+    )
+    wallMat = WallMat(
+        frictionAngle=math.atan(sample.wallFriction),
+        normalStiffness=sample.normalStiffness,
+        shearStiffness=sample.shearStiffness,
+        label="walls",
+    )
     O.materials.append([grainMat, wallMat])
     for axis, position in ((0, left), (0, right), (1, bottom), (1, top)):
         O.bodies.append(utils.wall(position, axis=axis, material="walls"))
@@ -137,9 +163,11 @@ def buildScene(sample, x, y, radii, box):
     O.engines = [
         ForceResetter(),
         InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.1 * sample.rMin, label="collider"),
-        InteractionLoop([Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Wall_Sphere_ScGeom6D()],
-                        [Ip2_DiskMat_DiskMat_CohFrictPhys(label="bonds"), Ip2_WallMat_DiskMat_CohFrictPhys()],
-                        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()]),
+        InteractionLoop(
+            [Ig2_Sphere_Sphere_ScGeom6D(), Ig2_Wall_Sphere_ScGeom6D()],
+            [Ip2_DiskMat_DiskMat_CohFrictPhys(label="bonds"), Ip2_WallMat_DiskMat_CohFrictPhys()],
+            [Law2_ScGeom6D_CohFrictPhys_CohesionMoment()],
+        ),
         WallServoEngine(dead=True, label="servo"),
         NewtonIntegrator(damping=SETTLING_DAMPING, label="newton"),
     ]
@@ -148,7 +176,9 @@ def buildScene(sample, x, y, radii, box):
 
 
 def placeSample(sample):
-    """Draw the sample's grains, place them loosely at random in a tall box, and fill the scene with them (:func:`buildScene`)."""
+    """Draw the sample's grains, place them loosely at random in a tall box, and fill the scene with them
+    (:func:`buildScene`).
+    """
     radii = drawRadii(sample)
     x, y, width, height = placeGrains(sample, radii)
     buildScene(sample, x, y, radii, (0, width, 0, height))
@@ -165,11 +195,14 @@ def engine(label):
             for functor in getattr(getattr(candidate, dispatcher, None), "functors", []):
                 if functor.label == label:
                     return functor
-    raise SceneError(f"the scene has no engine with the label '{label}'; make the sample with capfrac.sediment.buildScene")
+    raise SceneError(
+        f"the scene has no engine with the label '{label}'; make the sample with capfrac.sediment.buildScene"
+    )
 
 
 def insertFluid(fluid):
-    """Put a fluid engine (with a label) where it belongs, after the contacts and before the servo; returns it as YADE holds it.
+    """Put a fluid engine (with a label) where it belongs, after the contacts and before the servo; returns it as YADE
+    holds it.
 
     Raises :class:`SceneError` where another engine has that label.
     """
@@ -177,7 +210,10 @@ def insertFluid(fluid):
 
     engines = list(O.engines)
     if any(other.label == fluid.label for other in engines):
-        raise SceneError(f"the scene has an engine with the label '{fluid.label}' already; take it out of O.engines first, or give the new one another label")
+        raise SceneError(
+            f"the scene has an engine with the label '{fluid.label}' already; take it out of O.engines first, or give"
+            " the new one another label"
+        )
     engines.insert(engines.index(engine("servo")), fluid)
     O.engines = engines
     return engine(fluid.label)
@@ -227,13 +263,23 @@ def settle(sample, unbalanced=0.01, maxSteps=400_000, progress=None):
     def complaint():
         flying = _flying(grains)
         if flying:
-            return (f"the grains did not come to rest: {flying} of {len(grains)} touch nothing after {maxSteps} steps, "
-                    "allowed: none")
-        return (f"the grains did not come to rest: unbalanced force {utils.unbalancedForce():.2g} after {maxSteps} "
-                f"steps, wanted {unbalanced}")
+            return (
+                f"the grains did not come to rest: {flying} of {len(grains)} touch nothing after {maxSteps} steps, "
+                "allowed: none"
+            )
+        return (
+            f"the grains did not come to rest: unbalanced force {utils.unbalancedForce():.2g} after {maxSteps} "
+            f"steps, wanted {unbalanced}"
+        )
 
-    runUntil(lambda: O.iter > 2000 and utils.unbalancedForce() < unbalanced and not _flying(grains), maxSteps, 1000,
-             complaint, progress, "settling")
+    runUntil(
+        lambda: O.iter > 2000 and utils.unbalancedForce() < unbalanced and not _flying(grains),
+        maxSteps,
+        1000,
+        complaint,
+        progress,
+        "settling",
+    )
     newton.gravity = (0, 0, 0)
     top = max(body.state.pos[1] + body.shape.radius for body in grains)
     walls["top"].state.pos = (0, top, 0)
@@ -256,7 +302,8 @@ def advance(steps):
     """Run that many time steps here and now.
 
     ``O.run(steps, True)`` looks for the end only every 40 ms, which is longer than many a stretch of steps takes, and
-    misses an engine's exception where the run was over before it looked at all; here it arrives as it was thrown. Interrupted (Ctrl-C), the scene is between two steps.
+    misses an engine's exception where the run was over before it looked at all; here it arrives as it was thrown.
+    Interrupted (Ctrl-C), the scene is between two steps.
     """
     from yade import O
 
@@ -265,9 +312,11 @@ def advance(steps):
 
 
 def runUntil(done, maxSteps, chunk, complaint, progress, label):
-    """Run in chunks of steps until ``done()``; :class:`SampleError` with ``complaint`` after ``maxSteps``, or when a grain flies off.
+    """Run in chunks of steps until ``done()``; :class:`SampleError` with ``complaint`` after ``maxSteps``, or when a
+    grain flies off.
 
-    ``complaint`` is a text, in which ``{unbalanced}`` is filled in, or a function that gives it. ``progress(label, unbalanced force)`` is called after each chunk.
+    ``complaint`` is a text, in which ``{unbalanced}`` is filled in, or a function that gives it. ``progress(label,
+    unbalanced force)`` is called after each chunk.
     """
     from yade import O, utils
 
@@ -279,8 +328,10 @@ def runUntil(done, maxSteps, chunk, complaint, progress, label):
             return
         lost = next((body for body in grainBodies() if not math.isfinite(body.state.pos.norm())), None)
         if lost is not None:
-            raise SampleError(f"body #{lost.id} flew off while {label} (its place is {tuple(lost.state.pos)}): the time step O.dt = {O.dt:g} s is too large, "
-                              "or grains lay in each other")
+            raise SampleError(
+                f"body #{lost.id} flew off while {label} (its place is {tuple(lost.state.pos)}): the time step O.dt ="
+                f" {O.dt:g} s is too large, or grains lay in each other"
+            )
     raise SampleError(complaint() if callable(complaint) else complaint.format(unbalanced=utils.unbalancedForce()))
 
 
@@ -301,7 +352,10 @@ def wallBodies():
 def boxSize():
     """Width and height of the box of the current scene [m]."""
     walls = wallBodies()
-    return walls["right"].state.pos[0] - walls["left"].state.pos[0], walls["top"].state.pos[1] - walls["bottom"].state.pos[1]
+    return (
+        walls["right"].state.pos[0] - walls["left"].state.pos[0],
+        walls["top"].state.pos[1] - walls["bottom"].state.pos[1],
+    )
 
 
 def wallStresses():
@@ -338,9 +392,11 @@ def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxStep
 
     def complaint():
         left, right, bottom, top = servo.stress
-        return (f"the walls did not come to sigma_V = {stressV:g} Pa, sigma_H = {stressH:g} Pa within {maxSteps} "
-                f"steps: left {left:.4g}, right {right:.4g}, bottom {bottom:.4g}, top {top:.4g} Pa, unbalanced force "
-                f"{utils.unbalancedForce():.2g} (allowed {unbalanced:g})")
+        return (
+            f"the walls did not come to sigma_V = {stressV:g} Pa, sigma_H = {stressH:g} Pa within {maxSteps} "
+            f"steps: left {left:.4g}, right {right:.4g}, bottom {bottom:.4g}, top {top:.4g} Pa, unbalanced force "
+            f"{utils.unbalancedForce():.2g} (allowed {unbalanced:g})"
+        )
 
     runUntil(done, maxSteps, 1000, complaint, progress, "compressing")
 
@@ -365,9 +421,14 @@ def relax(unbalanced=1e-4, maxSteps=400_000, progress=None):
     """
     from yade import utils
 
-    runUntil(lambda: utils.unbalancedForce() < unbalanced, maxSteps, 500,
-              f"the grains did not come to rest: unbalanced force {{unbalanced}} after {maxSteps} steps, wanted {unbalanced}",
-              progress, "relaxing")
+    runUntil(
+        lambda: utils.unbalancedForce() < unbalanced,
+        maxSteps,
+        500,
+        f"the grains did not come to rest: unbalanced force {{unbalanced}} after {maxSteps} steps, wanted {unbalanced}",
+        progress,
+        "relaxing",
+    )
     for body in grainBodies():
         body.state.vel = body.state.angVel = (0, 0, 0)
 
@@ -380,7 +441,11 @@ def bond(capillaryStrength=0.0, tensileStrength=0.0, shearStrength=0.0):
     """
     from yade import O
 
-    for name, value in (("capillaryStrength", capillaryStrength), ("tensileStrength", tensileStrength), ("shearStrength", shearStrength)):
+    for name, value in (
+        ("capillaryStrength", capillaryStrength),
+        ("tensileStrength", tensileStrength),
+        ("shearStrength", shearStrength),
+    ):
         if not isNotNegative(value):
             raise CaseError(f"{name} = {shown(value)}, allowed: >= 0")
     for material in {id(body.material): body.material for body in grainBodies()}.values():

@@ -30,13 +30,34 @@ WALL_NAMES = list(WALL_AXIS)
 
 # Kinds and shapes of the arrays. Letters are lengths: arrays with the same letter belong together row by row.
 _ARRAYS = {
-    "ids": (int, "n"), "x": (float, "n"), "y": (float, "n"), "r": (float, "n"), "displacement": (float, "n2"), "rattler": (bool, "n"),
-    "contacts": (int, "m2"), "contactEnds": (float, "m22"), "normalForce": (float, "m"), "shearForce": (float, "m"), "bonded": (bool, "m"),
+    "ids": (int, "n"),
+    "x": (float, "n"),
+    "y": (float, "n"),
+    "r": (float, "n"),
+    "displacement": (float, "n2"),
+    "rattler": (bool, "n"),
+    "contacts": (int, "m2"),
+    "contactEnds": (float, "m22"),
+    "normalForce": (float, "m"),
+    "shearForce": (float, "m"),
+    "bonded": (bool, "m"),
     "brokenBonds": (int, "k2"),
-    "cellVertices": (int, "c3"), "polygonOffsets": (int, "o"), "polygonCorners": (float, "p2"), "cellPhase": (int, "c"),
-    "cellPressure": (float, "c"), "cellVoid": (float, "c"), "cellDomain": (int, "c"), "cellInlet": (bool, "c"),
-    "throatIds": (int, "t2"), "throatGap": (float, "t"), "throatOpen": (bool, "t"), "entryPressure": (float, "t"), "throatCells": (int, "t2"),
-    "box": (float, "4"), "wallIds": (int, "4"), "inletPoints": (float, "i2"),
+    "cellVertices": (int, "c3"),
+    "polygonOffsets": (int, "o"),
+    "polygonCorners": (float, "p2"),
+    "cellPhase": (int, "c"),
+    "cellPressure": (float, "c"),
+    "cellVoid": (float, "c"),
+    "cellDomain": (int, "c"),
+    "cellInlet": (bool, "c"),
+    "throatIds": (int, "t2"),
+    "throatGap": (float, "t"),
+    "throatOpen": (bool, "t"),
+    "entryPressure": (float, "t"),
+    "throatCells": (int, "t2"),
+    "box": (float, "4"),
+    "wallIds": (int, "4"),
+    "inletPoints": (float, "i2"),
 }
 
 
@@ -99,11 +120,21 @@ class Snapshot:
             array = np.asarray(getattr(self, name), dtype=kind).reshape((-1, *rest) if letter else rest)
             setattr(self, name, array)
             if letter and len(array) != lengths.setdefault(letter, len(array)):
-                raise CaseError(f"{name} has {len(array)} rows, allowed: {lengths[letter]}, as many as the arrays that it belongs to")
+                raise CaseError(
+                    f"{name} has {len(array)} rows, allowed: {lengths[letter]}, as many as the arrays that it"
+                    " belongs to"
+                )
         ends = self.polygonOffsets
-        if len(ends) != len(self.cellVertices) + 1 or ends[0] != 0 or ends[-1] != len(self.polygonCorners) or np.any(np.diff(ends) < 3):
-            raise CaseError(f"polygonOffsets = {ends[:3]} … {ends[-1:]} ({len(ends)} values), allowed: from 0 to {len(self.polygonCorners)} "
-                            f"in steps of 3 or more, {len(self.cellVertices) + 1} values")
+        if (
+            len(ends) != len(self.cellVertices) + 1
+            or ends[0] != 0
+            or ends[-1] != len(self.polygonCorners)
+            or np.any(np.diff(ends) < 3)
+        ):
+            raise CaseError(
+                f"polygonOffsets = {ends[:3]} … {ends[-1:]} ({len(ends)} values), allowed: from 0 to"
+                f" {len(self.polygonCorners)} in steps of 3 or more, {len(self.cellVertices) + 1} values"
+            )
 
     @property
     def capillaryPressure(self):
@@ -117,7 +148,7 @@ class Snapshot:
 
     def polygon(self, cell):
         """(corners, 2) corners of a cell [m]."""
-        return self.polygonCorners[self.polygonOffsets[cell]:self.polygonOffsets[cell + 1]]
+        return self.polygonCorners[self.polygonOffsets[cell] : self.polygonOffsets[cell + 1]]
 
     def rowOf(self, ids):
         """Row of each body id among the grains; -1 for walls and strangers. Takes any shape."""
@@ -143,12 +174,17 @@ class Snapshot:
 
     def equals(self, other):
         """Whether all values are the same to the last bit (NaN equals NaN)."""
-        return all(np.array_equal(getattr(self, f.name), getattr(other, f.name), equal_nan=_isFloat(getattr(self, f.name))) for f in fields(self))
+        return all(
+            np.array_equal(getattr(self, f.name), getattr(other, f.name), equal_nan=_isFloat(getattr(self, f.name)))
+            for f in fields(self)
+        )
 
     def save(self, path):
         """Write to a ``.npz`` file that :func:`load` reads back exactly."""
         with open(path, "wb") as stream:  # np.savez would append .npz to other names
-            np.savez_compressed(stream, fileVersion=FILE_VERSION, **{f.name: getattr(self, f.name) for f in fields(self)})
+            np.savez_compressed(
+                stream, fileVersion=FILE_VERSION, **{f.name: getattr(self, f.name) for f in fields(self)}
+            )
 
 
 def _isFloat(value):
@@ -190,22 +226,41 @@ def takeSnapshot(gas, start=None):
     cells, throats = gas.cells(), gas.throats()
     # The engine's own gasSaturation is that of the last avalanche; the picture shows the voids as they are now.
     snapshot = Snapshot(
-        ids=ids, x=places[:, 0], y=places[:, 1], r=[body.shape.radius for body in grains],
-        displacement=places - _startPlaces(start, ids, places), rattler=[i in rattlers for i in ids],
+        ids=ids,
+        x=places[:, 0],
+        y=places[:, 1],
+        r=[body.shape.radius for body in grains],
+        displacement=places - _startPlaces(start, ids, places),
+        rattler=[i in rattlers for i in ids],
         **_contacts(),
         brokenBonds=gas.brokenBonds() if hasattr(gas, "brokenBonds") else [],
-        cellVertices=cells["vertices"], cellPhase=cells["phase"], cellPressure=cells["pressure"], cellVoid=cells["void"],
-        cellDomain=cells["domain"], cellInlet=cells["inlet"],
+        cellVertices=cells["vertices"],
+        cellPhase=cells["phase"],
+        cellPressure=cells["pressure"],
+        cellVoid=cells["void"],
+        cellDomain=cells["domain"],
+        cellInlet=cells["inlet"],
         polygonOffsets=np.cumsum([0] + [len(corners) for corners in cells["polygon"]]),
         polygonCorners=[corner for corners in cells["polygon"] for corner in corners],
-        throatIds=throats["ids"], throatGap=throats["gap"], throatOpen=throats["open"], entryPressure=throats["entryPressure"],
+        throatIds=throats["ids"],
+        throatGap=throats["gap"],
+        throatOpen=throats["open"],
+        entryPressure=throats["entryPressure"],
         throatCells=throats["cells"],
-        box=[walls[i].state.pos[walls[i].shape.axis] for i in wallIds], wallIds=wallIds,
+        box=[walls[i].state.pos[walls[i].shape.axis] for i in wallIds],
+        wallIds=wallIds,
         inletPoints=[tuple(point) for point in getattr(gas, "inletPoints", [])],
-        inletWall=getattr(gas, "inletWall", ""), inletFrom=getattr(gas, "inletFrom", 0.0), inletTo=getattr(gas, "inletTo", 0.0),
-        gasPressure=getattr(gas, "gasPressure", math.nan), waterPressure=gas.waterPressure,
-        gasSaturation=sum(cells["gas"]) / sum(cells["void"]), time=O.time, iteration=O.iter, level=getattr(gas, "level", 0),
-        thickness=gas.thickness)
+        inletWall=getattr(gas, "inletWall", ""),
+        inletFrom=getattr(gas, "inletFrom", 0.0),
+        inletTo=getattr(gas, "inletTo", 0.0),
+        gasPressure=getattr(gas, "gasPressure", math.nan),
+        waterPressure=gas.waterPressure,
+        gasSaturation=sum(cells["gas"]) / sum(cells["void"]),
+        time=O.time,
+        iteration=O.iter,
+        level=getattr(gas, "level", 0),
+        thickness=gas.thickness,
+    )
     snapshot.contactEnds = snapshot.endsOf(snapshot.contacts)
     return snapshot
 
@@ -229,7 +284,9 @@ def _startPlaces(start, ids, places):
         return np.column_stack([start.x, start.y])
     start = np.asarray(start, dtype=float)
     if start.shape != places.shape:
-        raise CaseError(f"start has the shape {start.shape}, allowed: {places.shape}, the positions of all grains by ascending id")
+        raise CaseError(
+            f"start has the shape {start.shape}, allowed: {places.shape}, the positions of all grains by ascending id"
+        )
     return start
 
 
@@ -243,9 +300,22 @@ def _contacts():
             continue
         # YADE's laws push id2 along geom.normal (from id1 to id2) with phys.normalForce: along it is compression.
         force = contact.phys.normalForce.dot(contact.geom.normal)
-        rows.append((contact.id1, contact.id2, force, contact.phys.shearForce.norm(), not getattr(contact.phys, "cohesionBroken", True)))
+        rows.append(
+            (
+                contact.id1,
+                contact.id2,
+                force,
+                contact.phys.shearForce.norm(),
+                not getattr(contact.phys, "cohesionBroken", True),
+            )
+        )
     rows.sort()
     a, b, normal, shear, bonded = zip(*rows) if rows else ([],) * 5
     # The ends need the finished snapshot's positions: see takeSnapshot.
-    return {"contacts": np.column_stack([a, b]), "normalForce": normal, "shearForce": shear, "bonded": bonded,
-            "contactEnds": np.zeros((len(rows), 2, 2))}
+    return {
+        "contacts": np.column_stack([a, b]),
+        "normalForce": normal,
+        "shearForce": shear,
+        "bonded": bonded,
+        "contactEnds": np.zeros((len(rows), 2, 2)),
+    }

@@ -72,8 +72,10 @@ class Header:
                 raise CaseError(f"{path}, line {self.line}: the columns {twice} both give {column.name}; allowed: one")
             if not places and not column.optional:
                 named = ", ".join(f"'{name}'" for name in self.names) if any(self.names) else "none"
-                raise CaseError(f"{path}, line {self.line}: columns {named}; needed: {_described(columns)}; "
-                                f"a unit may stand behind a name: {_example(columns)}")
+                raise CaseError(
+                    f"{path}, line {self.line}: columns {named}; needed: {_described(columns)}; "
+                    f"a unit may stand behind a name: {_example(columns)}"
+                )
             for place in places:
                 name = self.names[place]
                 found.append(Found(column, place, name, self._factor(path, column, name)))
@@ -116,8 +118,10 @@ def readHeader(path, columns, comments, rows):
         if found and len(found[1]) == len(split(text, separator) or ()):
             return Header(number, found[1], separator), rows
     names = ", ".join(column.name for column in columns if not column.optional)
-    raise CaseError(f"{path}, line {line}: numbers, but no line before them that names the columns; needed: a first "
-                    f"line '{names}', with the units where they are not SI units: {_example(columns)}")
+    raise CaseError(
+        f"{path}, line {line}: numbers, but no line before them that names the columns; needed: a first "
+        f"line '{names}', with the units where they are not SI units: {_example(columns)}"
+    )
 
 
 def split(text, separator):
@@ -164,8 +168,11 @@ def _parts(text):
 
 
 def _described(columns):
-    return ", ".join(f"{column.name} [{column.unit}]" + (f" (or {', '.join(column.others)})" if column.others else "")
-                     for column in columns if not column.optional)
+    return ", ".join(
+        f"{column.name} [{column.unit}]" + (f" (or {', '.join(column.others)})" if column.others else "")
+        for column in columns
+        if not column.optional
+    )
 
 
 def _example(columns):

@@ -58,8 +58,10 @@ def readTable(path, columns, what):
     fields = [_fields(path, line, text, header) for line, text in rows]
     lines = tuple(line for line, _ in rows)
     commas = _decimalCommas(path, lines, fields, found)
-    values = {one.column.name: np.array([_value(path, line, one, row[one.place], commas)
-                                         for line, row in zip(lines, fields)]) for one in found}
+    values = {
+        one.column.name: np.array([_value(path, line, one, row[one.place], commas) for line, row in zip(lines, fields)])
+        for one in found
+    }
     return Table(Path(path), values, lines)
 
 
@@ -96,8 +98,10 @@ def _fields(path, line, text, header):
         return fields
     surplus = header.separator == "," and len(fields) > len(header.names) and "." not in text
     hint = "; where commas are decimal, separate the fields by ;" if surplus else ""
-    raise CaseError(f"{path}, line {line}: {len(fields)} field{'s' * (len(fields) > 1)} ({_few(fields)}), allowed: "
-                    f"{len(header.names)}, one for each column of line {header.line} ({_few(header.names)}){hint}")
+    raise CaseError(
+        f"{path}, line {line}: {len(fields)} field{'s' * (len(fields) > 1)} ({_few(fields)}), allowed: "
+        f"{len(header.names)}, one for each column of line {header.line} ({_few(header.names)}){hint}"
+    )
 
 
 def _few(fields):
@@ -113,8 +117,10 @@ def _decimalCommas(path, lines, fields, found):
                 if mark in row[one.place]:
                     first.setdefault(mark, f"line {line}: {one.written} = '{row[one.place]}'")
     if len(first) == 2:
-        raise CaseError(f"{path}, {first[',']} has a comma, but {first['.']} has a point; allowed: one of them, for "
-                        "decimals, and none for thousands")
+        raise CaseError(
+            f"{path}, {first[',']} has a comma, but {first['.']} has a point; allowed: one of them, for "
+            "decimals, and none for thousands"
+        )
     return "," in first
 
 

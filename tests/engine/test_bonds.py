@@ -27,7 +27,8 @@ def test_bondStrengthIsEquation5(pair, r1, r2, thickness, contact):
 
 @pytest.mark.parametrize("factor", [None, 1, 7.5])
 def test_wallIsAMirror(onFloor, factor, contact):
-    # Behind a smooth wall stands the grain's own image: mean radius r, the grain's own material twice; times bondFactor.
+    # Behind a smooth wall stands the grain's own image: mean radius r, the grain's own material twice; times
+    # bondFactor.
     onFloor(1e-6, 2e-3)
     contact()
     if factor is not None:

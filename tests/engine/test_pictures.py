@@ -17,8 +17,8 @@ from test_outputs import makeSnapshot
 LONG = (
     "Gas at a constant rate into the unconsolidated, fine-grained sediment of a site whose name takes up more room "
     "than anyone "
-    "would have thought, from a reservoir that is about as large as the pores, second sample, with menisci"
-) * 2
+    "would have thought, from a reservoir that is about as large as the pores, second sample, with menisci" * 2
+)
 
 
 @pytest.fixture

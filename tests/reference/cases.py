@@ -212,7 +212,7 @@ STILL = {
         gasLaw="ideal",
     ),
     **{
-        f"flow-{scheme}": (lambda build, scheme=scheme: rigidFlow(build, scheme))
+        f"flow-{scheme}": lambda build, scheme=scheme: rigidFlow(build, scheme)
         for scheme in ("explicit", "implicit", "undrainedStable")
     },
 }

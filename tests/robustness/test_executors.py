@@ -1,4 +1,5 @@
-"""Whatever runs the points of a sweep: executors of this machine, of a cluster, some that fail, none to be shut down."""
+"""Whatever runs the points of a sweep: executors of this machine, of a cluster, some that fail, none to be shut down.
+"""
 
 import csv
 import os

@@ -21,10 +21,16 @@ def inject(case, folder, **options):
 
 
 def caseOf(folder, name="packing.csv", **grains):
-    return resolveCase({"case": {}, "grains": {"rMin": 1e-3, "packing": str(folder / name), **grains},
-                        "stress": {"vertical": 10e3, "horizontal": 10e3}, "inlet": {"pores": 1},
-                        "ramp": {"start": 50, "increment": 10, "max": 400, "endAt": "breakthrough"},
-                        "output": {"pictures": "none", "fields": False}})
+    return resolveCase(
+        {
+            "case": {},
+            "grains": {"rMin": 1e-3, "packing": str(folder / name), **grains},
+            "stress": {"vertical": 10e3, "horizontal": 10e3},
+            "inlet": {"pores": 1},
+            "ramp": {"start": 50, "increment": 10, "max": 400, "endAt": "breakthrough"},
+            "output": {"pictures": "none", "fields": False},
+        }
+    )
 
 
 def finished(folder, case):
@@ -96,8 +102,14 @@ def test_runsOfAFormerVersionAreTold(tmp_path, recorded):
 
 
 def test_caseWithoutFilesIsTheRunThatItWas():
-    case = resolveCase({"grains": {"rMin": 1e-3}, "stress": {"vertical": 1, "horizontal": 1}, "inlet": {"pores": 1},
-                        "ramp": {"start": 1, "increment": 1, "max": 2}})
+    case = resolveCase(
+        {
+            "grains": {"rMin": 1e-3},
+            "stress": {"vertical": 1, "horizontal": 1},
+            "inlet": {"pores": 1},
+            "ramp": {"start": 1, "increment": 1, "max": 2},
+        }
+    )
     assert namedfiles.digests(case) == {} and difference({"caseKey": caseKey(case, {})}, case, {}) == ""
 
 
@@ -117,11 +129,23 @@ def labValues(test, **entries):
     return parameters.resolve(test, raw)
 
 
-@pytest.mark.parametrize("test, entries, first, then", [
-    ("settle", {"grains__distribution": "sieve", "grains__sieve": "curve.csv", "grains__count": 10},
-     "diameter [mm],passing\n1,0\n2,100\n", "diameter [mm],passing\n1,0\n3,100\n"),
-    ("hydrate-ridge", {"hydrate_ridge__laboratory": "curve.csv"},
-     "stress,strain\n1e5,0.1\n2e5,0.2\n", "stress,strain\n1e5,0.1\n2e5,0.3\n")])
+@pytest.mark.parametrize(
+    "test, entries, first, then",
+    [
+        (
+            "settle",
+            {"grains__distribution": "sieve", "grains__sieve": "curve.csv", "grains__count": 10},
+            "diameter [mm],passing\n1,0\n2,100\n",
+            "diameter [mm],passing\n1,0\n3,100\n",
+        ),
+        (
+            "hydrate-ridge",
+            {"hydrate_ridge__laboratory": "curve.csv"},
+            "stress,strain\n1e5,0.1\n2e5,0.2\n",
+            "stress,strain\n1e5,0.1\n2e5,0.3\n",
+        ),
+    ],
+)
 def test_changedCurvesAreNotTheTestThatIsThere(tmp_path, test, entries, first, then):
     curve = tmp_path / "curve.csv"
     curve.write_text(first)

@@ -39,10 +39,13 @@ def caseOf(tmp_path):
     writePacking(tmp_path / "p.csv")
 
     def make(start=BELOW, **sections):
-        raw = {"grains": {"packing": str(tmp_path / "p.csv"), "rMin": 1e-3},
-               "stress": {"vertical": 10e3, "horizontal": 10e3}, "inlet": {"pores": 1},
-               "ramp": {"start": start, "increment": 10, "max": 400, "endAt": "breakthrough"},
-               "output": {"pictures": "none", "fields": False}}
+        raw = {
+            "grains": {"packing": str(tmp_path / "p.csv"), "rMin": 1e-3},
+            "stress": {"vertical": 10e3, "horizontal": 10e3},
+            "inlet": {"pores": 1},
+            "ramp": {"start": start, "increment": 10, "max": 400, "endAt": "breakthrough"},
+            "output": {"pictures": "none", "fields": False},
+        }
         for section, entries in sections.items():
             raw.setdefault(section, {}).update(entries)
         return resolveCase(raw)
@@ -67,9 +70,11 @@ def test_throughAtTheStartOfTheRamp(caseOf, tmp_path):
     names = summary["results"]["upperBounds"]
     # The levels of saturation, too: gas is everywhere at the end of the first level.
     assert names == ["breakthroughPressure", *summary["results"]["saturation"]]
-    text, = summary["warnings"]
-    assert text == (f"reached at ramp.start = 300 Pa already, so upper bounds: {', '.join(names)}; "
-                    "begin the ramp lower to find them")
+    (text,) = summary["warnings"]
+    assert (
+        text == f"reached at ramp.start = 300 Pa already, so upper bounds: {', '.join(names)}; "
+        "begin the ramp lower to find them"
+    )
 
 
 @pytest.mark.parametrize("pressure, above", [(None, False), (50.0, True), (50.000001, False), (20.0, True)])
@@ -114,7 +119,7 @@ def test_inletThatTouchesTheOutlet(caseOf, tmp_path):
 
 def test_pressuresOutsideOfTheRamp(caseOf, tmp_path):
     summary, told = warningsOf(caseOf(output={"pressures": [20, 60, 400, 500.5]}), tmp_path / "run")
-    text, = summary["warnings"]
+    (text,) = summary["warnings"]
     assert text == "output.pressures: no snapshot at 20, 500.5 Pa, the capillary pressure goes from 50 to 400 Pa"
     assert told == [f"warning: {text}"] and "60Pa" in [entry["name"] for entry in summary["snapshots"]]
 

@@ -13,5 +13,28 @@ from capfrac.fracture.report import FILES, measureFracture, orientationOfRuns, r
 from capfrac.fracture.stress import GrainStress, loadStress, principal, smoothField, takeStress
 from capfrac.fracture.throats import openedThroats
 
-__all__ = ["FILES", "SHORTEST", "Branch", "Fracture", "GrainStress", "Passage", "Way", "axialMean", "findFracture", "findPassage", "loadStress", "measureFracture", "openedThroats",
-           "orientationOfRuns", "orientationVector", "principal", "rayleighTest", "reportRun", "rose", "rotationTest", "smoothField", "takeStress", "tipAdvance"]
+__all__ = [
+    "FILES",
+    "SHORTEST",
+    "Branch",
+    "Fracture",
+    "GrainStress",
+    "Passage",
+    "Way",
+    "axialMean",
+    "findFracture",
+    "findPassage",
+    "loadStress",
+    "measureFracture",
+    "openedThroats",
+    "orientationOfRuns",
+    "orientationVector",
+    "principal",
+    "rayleighTest",
+    "reportRun",
+    "rose",
+    "rotationTest",
+    "smoothField",
+    "takeStress",
+    "tipAdvance",
+]

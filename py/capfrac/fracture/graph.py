@@ -1,14 +1,16 @@
 """The fracture as a graph: which throats have opened, where its tips are, how it branches.
 
-Nodes are cells that hold gas. Two of them hang together where the throat between them is *cracked* (its bond broken, or its gap grown by
-more than ``CRACKED`` mean radii since the start: more than an intact bond stretches) or was open at the start, the inside of a pore.
-Throats that gas entered without that are bridges: where a part of the fracture hangs on the inlet through them only, the fewest
-that will do are taken, and counted. The distance of a node is its way to the inlet.
+Nodes are cells that hold gas. Two of them hang together where the throat between them is *cracked* (its bond broken, or
+its gap grown by more than ``CRACKED`` mean radii since the start: more than an intact bond stretches) or was open at
+the start, the inside of a pore. Throats that gas entered without that are bridges: where a part of the fracture hangs
+on the inlet through them only, the fewest that will do are taken, and counted. The distance of a node is its way to the
+inlet.
 
-Where the distance is largest locally there is a tip; a tip's branch ends where, on the way in, its part of the fracture meets that of a
-tip farther out (the elder rule of persistent homology; Kanari et al. 2018, Neuroinformatics 16, 3-13, describe the shape of neurons
-so). A branch counts if it is ``SHORTEST`` mean grain diameters or longer. So a straight crack has two tips when the inlet is within it and
-one when it is at its end, a star has one for each arm, and a round blob has one, however rough its rim.
+Where the distance is largest locally there is a tip; a tip's branch ends where, on the way in, its part of the fracture
+meets that of a tip farther out (the elder rule of persistent homology; Kanari et al. 2018, Neuroinformatics 16, 3-13,
+describe the shape of neurons so). A branch counts if it is ``SHORTEST`` mean grain diameters or longer. So a straight
+crack has two tips when the inlet is within it and one when it is at its end, a star has one for each arm, and a round
+blob has one, however rough its rim.
 """
 
 from dataclasses import dataclass, field
@@ -23,10 +25,11 @@ from capfrac.snapshot import WALL_AXIS, WALL_NAMES
 
 #: Length of the shortest branch that counts, in mean grain diameters [-]: a pore of this model is one or two across.
 SHORTEST = 4.0
-#: Growth of a gap from which a throat is cracked though its bond may hold, in mean radii [-]. Bonds break at a stretch of
-#: 2 chi gamma w/k_n, 0.067 mean radii in the softest of the shipped cases.
+#: Growth of a gap from which a throat is cracked though its bond may hold, in mean radii [-]. Bonds break at a stretch
+#: of 2 chi gamma w/k_n, 0.067 mean radii in the softest of the shipped cases.
 CRACKED = 0.1
-#: Share of cracked throats on a branch, from which it is one of the fracture and not of capillary invasion [-]; as in mode.RULE_BY_THROATS.
+#: Share of cracked throats on a branch, from which it is one of the fracture and not of capillary invasion [-]; as in
+#: mode.RULE_BY_THROATS.
 MOST_OPENED = 0.5
 #: How much longer a way through a bridge is taken to be than one through the fracture [-].
 _DETOUR = 20.0
@@ -73,7 +76,8 @@ class Branch:
 class Fracture:
     """What :func:`findFracture` finds."""
 
-    aperture: np.ndarray  #: (t,) growth of the gap of each throat of the snapshot since the start [m]; NaN between two walls
+    #: (t,) growth of the gap of each throat of the snapshot since the start [m]; NaN between two walls
+    aperture: np.ndarray
     opened: np.ndarray  #: (t,) bool: grown by more than the engine's openingThreshold, or the bond broken
     cracked: np.ndarray  #: (t,) bool: grown by more than ``CRACKED`` mean radii, or the bond broken
     inGas: np.ndarray  #: (t,) bool: gas on both sides
@@ -96,9 +100,10 @@ class Fracture:
 def findFracture(now, start, openingThreshold=0.01, shortest=SHORTEST):
     """The :class:`Fracture` in a snapshot ``now``; ``start`` is the snapshot before the injection.
 
-    ``openingThreshold``: growth of a gap in mean radii from which a throat counts as opened [-], > 0 (that of the engine). ``shortest``:
-    length of the shortest branch in mean grain diameters [-], > 0. Gas that does not hang together with the inlet belongs to no branch.
-    :class:`CaseError` for impossible values and snapshots of different grains.
+    ``openingThreshold``: growth of a gap in mean radii from which a throat counts as opened [-], > 0 (that of the
+    engine). ``shortest``: length of the shortest branch in mean grain diameters [-], > 0. Gas that does not hang
+    together with the inlet belongs to no branch. :class:`CaseError` for impossible values and snapshots of different
+    grains.
     """
     if not (np.isfinite(shortest) and shortest > 0):
         raise CaseError(f"shortest = {shortest}, allowed: > 0 mean grain diameters")
@@ -116,8 +121,16 @@ def findFracture(now, start, openingThreshold=0.01, shortest=SHORTEST):
     distance, parent, via = _distances(place, ends, kinds, inletNodes(now, place))
     isNode = _fractureNodes(distance, parent, ends, kinds)
     joined = isNode[ends].all(axis=1) & ((kinds != "bridge") | np.isin(np.arange(len(throats)), via[isNode]))
-    found = Fracture(aperture=aperture, opened=opened, cracked=cracked, inGas=inGas, cells=gas[isNode], place=place[isNode], distance=distance[isNode],
-                     diameter=2 * float(np.mean(now.r)))
+    found = Fracture(
+        aperture=aperture,
+        opened=opened,
+        cracked=cracked,
+        inGas=inGas,
+        cells=gas[isNode],
+        place=place[isNode],
+        distance=distance[isNode],
+        diameter=2 * float(np.mean(now.r)),
+    )
     for tip, root in _bars(np.where(isNode, distance, np.inf), ends[joined], shortest * found.diameter):
         found.branches.append(_branch(tip, root, distance, parent, via, place, kinds))
     found.branches.sort(key=lambda branch: (-branch.length, tuple(branch.tip)))
@@ -141,9 +154,11 @@ def inletMiddle(now):
 
 
 def inletNodes(now, place):
-    """Rows of the gas cells at the inlet: of each of its points, or points along its stretch of wall, the nearest within two mean diameters.
+    """Rows of the gas cells at the inlet: of each of its points, or points along its stretch of wall, the nearest
+    within two mean diameters.
 
-    (``cellInlet`` is no help: it is the engine's mark of gas that hangs on the inlet, and spreads with the gas wherever edges flip.)
+    (``cellInlet`` is no help: it is the engine's mark of gas that hangs on the inlet, and spreads with the gas wherever
+    edges flip.)
     """
     points, diameter = _inletPoints(now), 2 * float(np.mean(now.r))
     if len(points) == 0 or len(place) == 0:
@@ -154,7 +169,9 @@ def inletNodes(now, place):
 
 
 def _distances(place, ends, kinds, inlet):
-    """Ways to the inlet with as few bridges as may be: length (k,), the next node on the way and the edge to it (-1 at the inlet)."""
+    """Ways to the inlet with as few bridges as may be: length (k,), the next node on the way and the edge to it (-1 at
+    the inlet).
+    """
     n = len(place)
     if n == 0 or len(inlet) == 0:
         return np.full(n, np.inf), np.full(n, -1), np.full(n, -1)
@@ -180,7 +197,13 @@ def _fractureNodes(distance, parent, ends, kinds):
     """(k,) bool: nodes of parts with a cracked throat, and those on their ways to the inlet."""
     n = len(distance)
     hanging = ends[kinds != "bridge"]
-    part = connected_components(coo_array((np.ones(len(hanging)), (hanging[:, 0], hanging[:, 1])), shape=(n, n)), directed=False)[1] if n else np.array([], dtype=int)
+    part = (
+        connected_components(
+            coo_array((np.ones(len(hanging)), (hanging[:, 0], hanging[:, 1])), shape=(n, n)), directed=False
+        )[1]
+        if n
+        else np.array([], dtype=int)
+    )
     isNode = np.isin(part, part[ends[kinds == "cracked"].ravel()]) & np.isfinite(distance)
     for node in np.flatnonzero(isNode):
         while parent[node] >= 0 and not isNode[parent[node]]:
@@ -193,8 +216,8 @@ def _fractureNodes(distance, parent, ends, kinds):
 def _bars(distance, ends, shortest):
     """Tips and the distances of their roots: pairs (node, distance) with ``distance[node] - root >= shortest``.
 
-    Nodes are taken from the farthest inwards. A node without a taken neighbour is a new tip; one that joins two parts ends the
-    branch of the nearer tip. What is left at the end reaches the inlet.
+    Nodes are taken from the farthest inwards. A node without a taken neighbour is a new tip; one that joins two parts
+    ends the branch of the nearer tip. What is left at the end reaches the inlet.
     """
     neighbours = [[] for _ in distance]
     for a, b in ends.tolist():
@@ -212,7 +235,9 @@ def _bars(distance, ends, shortest):
         if distance[node] <= 0:  # the inlet: all that arrives here has its root here, and does not end another
             break
         part[node] = node  # a part is named by its tip, which is its oldest node
-        for other in sorted({find(k) for k in neighbours[node] if k in part and k != node}, key=lambda k: (-distance[k], k)):
+        for other in sorted(
+            {find(k) for k in neighbours[node] if k in part and k != node}, key=lambda k: (-distance[k], k)
+        ):
             elder, younger = sorted((find(node), other), key=lambda k: (-distance[k], k))
             if elder == younger:
                 continue
@@ -229,8 +254,12 @@ def _branch(tip, root, distance, parent, via, place, kinds):
         edges.append(via[path[-1]])
         path.append(parent[path[-1]])
     crossed = kinds[edges] if edges else np.array([], dtype=str)
-    return Branch(path=place[path[::-1]], distance=distance[path[::-1]], openedThroats=int((crossed == "cracked").sum()),
-                  rigidThroats=int((crossed == "bridge").sum()))
+    return Branch(
+        path=place[path[::-1]],
+        distance=distance[path[::-1]],
+        openedThroats=int((crossed == "cracked").sum()),
+        rigidThroats=int((crossed == "bridge").sum()),
+    )
 
 
 def connectedParts(fracture, snapshot):

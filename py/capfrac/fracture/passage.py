@@ -1,13 +1,15 @@
 """How gas came through a sediment: on which way, past which throats, and whose room it stands in.
 
-The gas of a snapshot is a graph. Its nodes are cells (not pores: a throat that opens joins the pores on its sides), its edges the lines between
-two grains with gas on both sides. Such an edge is one of three things, by what its two bodies did since the start:
+The gas of a snapshot is a graph. Its nodes are cells (not pores: a throat that opens joins the pores on its sides), its
+edges the lines between two grains with gas on both sides. Such an edge is one of three things, by what its two bodies
+did since the start:
 
 ``opened``
-    its gap has grown by more than ``openingThreshold`` mean radii, or its bodies were no neighbours and have moved against each other by as
-    much: room that the grains have made.
+    its gap has grown by more than ``openingThreshold`` mean radii, or its bodies were no neighbours and have moved
+    against each other by as much: room that the grains have made.
 ``pore``
-    it was open at the start already (the inside of a pore), or one of its grains bore no load then: a grain that floats holds nothing together.
+    it was open at the start already (the inside of a pore), or one of its grains bore no load then: a grain that floats
+    holds nothing together.
 ``rigid``
     a throat that is as narrow as it was. Gas had to enter it.
 
@@ -58,8 +60,9 @@ class Passage:
 def findPassage(now, start, outlet="top", openingThreshold=0.01):
     """The :class:`Passage` of the gas in the snapshot ``now``; ``start`` is the one before the injection.
 
-    ``outlet``: a wall, or 'any'. ``openingThreshold``: growth of a gap in mean radii of its bodies from which a throat has opened [-],
-    > 0, as of the engine. :class:`CaseError` for another outlet or threshold, and for snapshots of different grains.
+    ``outlet``: a wall, or 'any'. ``openingThreshold``: growth of a gap in mean radii of its bodies from which a throat
+    has opened [-], > 0, as of the engine. :class:`CaseError` for another outlet or threshold, and for snapshots of
+    different grains.
     """
     if outlet not in (*WALL_NAMES, "any"):
         raise CaseError(f"outlet = {outlet!r}, allowed: {', '.join(map(repr, WALL_NAMES))}, 'any'")
@@ -115,10 +118,11 @@ def kindsOf(now, start, edges, openingThreshold=0.01):
 def madeRoom(now, start):
     """The share of the gas in ``now`` that stands in room that the grains made since ``start`` [-]; 0 without gas.
 
-    It is the growth of the region that the gas holds, over the gas volume: the area of its cells now, less that of cells
-    between the same bodies where these were at the start. What happens within the region cancels in that sum, as in the
-    area of any polygon: a grain that tumbles in the gas and cells that flip change nothing. 0 for gas between grains that
-    stand still, 1 for gas between the walls of a crack that were one; below 0 where grains have closed up around the gas.
+    It is the growth of the region that the gas holds, over the gas volume: the area of its cells now, less that of
+    cells between the same bodies where these were at the start. What happens within the region cancels in that sum, as
+    in the area of any polygon: a grain that tumbles in the gas and cells that flip change nothing. 0 for gas between
+    grains that stand still, 1 for gas between the walls of a crack that were one; below 0 where grains have closed up
+    around the gas.
     """
     gas = np.flatnonzero(now.gasCells)
     volume = float(now.cellVoid[gas].sum())
@@ -162,7 +166,9 @@ class _Graph:
         return np.isfinite(self._search(inlet, np.ones(len(self.edge)))[0])
 
     def way(self, inlet, ends, avoided):
-        """The :class:`Way` to one of ``ends`` with the fewest edges of the kind ``avoided``; of these with the fewest throats, then with the fewest cells."""
+        """The :class:`Way` to one of ``ends`` with the fewest edges of the kind ``avoided``; of these with the fewest
+        throats, then with the fewest cells.
+        """
         if len(inlet) == 0 or len(ends) == 0:
             return Way(np.array([], dtype=int), 0, 0)
         kinds, many = self.kinds[self.edge], self.count + 1.0

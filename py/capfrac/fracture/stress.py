@@ -1,14 +1,14 @@
 """Stress carried by the grains: of each grain, as a smooth field, and its mean over the box.
 
-The tensor of a grain is that of Love and Weber, sigma_ab V = sum_c f_a (c_b - x_b) over its contacts, with f the force that the contact
-exerts on the grain, c the contact and x the centre, turned so that compression is positive (Love 1927; Weber 1966; Goddard 1998). V is
-the grain's share of the box: each cell of the network is shared out evenly among its grains, so that all V add up to the box. The mean
-over all grains, weighted with V, is the sum of f (x) l over all contacts divided by the area of the box, l being the line between the
-centres (or from a centre to a wall).
+The tensor of a grain is that of Love and Weber, sigma_ab V = sum_c f_a (c_b - x_b) over its contacts, with f the force
+that the contact exerts on the grain, c the contact and x the centre, turned so that compression is positive (Love 1927;
+Weber 1966; Goddard 1998). V is the grain's share of the box: each cell of the network is shared out evenly among its
+grains, so that all V add up to the box. The mean over all grains, weighted with V, is the sum of f (x) l over all
+contacts divided by the area of the box, l being the line between the centres (or from a centre to a wall).
 
-This is the *effective* stress, borne by contacts and bonds. The walls bear the pressure of the fluids, too: in equilibrium the total
-stress on them is its mean plus the virial of the fluids, (1/A) sum F_a x_a over grains and walls. With water alone at p_w = 0 there is
-nothing to add.
+This is the *effective* stress, borne by contacts and bonds. The walls bear the pressure of the fluids, too: in
+equilibrium the total stress on them is its mean plus the virial of the fluids, (1/A) sum F_a x_a over grains and walls.
+With water alone at p_w = 0 there is nothing to add.
 """
 
 import math
@@ -41,7 +41,9 @@ class GrainStress:
         return (self.area[:, None, None] * self.tensor).sum(axis=0) / self.area.sum()
 
     def total(self):
-        """Mean total stress (sigma_xx, sigma_yy) over the box [Pa], fluids included; in equilibrium that of the walls."""
+        """Mean total stress (sigma_xx, sigma_yy) over the box [Pa], fluids included; in equilibrium that of the
+        walls.
+        """
         return np.diag(self.mean()) + np.diag(self.fluid)
 
     def save(self, path):
@@ -84,12 +86,22 @@ def takeStress(fluid, shot):
         walls[k] = (1 if k % 2 else -1) * (force + onWalls[k]) / length
     if np.any(area <= 0):
         raise SceneError(f"body #{shot.ids[int(np.argmin(area))]} has no share of the box; the sample is torn")
-    return GrainStress(ids=shot.ids, place=places, radius=shot.r, area=area, tensor=moments / area[:, None, None], box=shot.box,
-                       fluid=virial / boxArea, walls=walls)
+    return GrainStress(
+        ids=shot.ids,
+        place=places,
+        radius=shot.r,
+        area=area,
+        tensor=moments / area[:, None, None],
+        box=shot.box,
+        fluid=virial / boxArea,
+        walls=walls,
+    )
 
 
 def _contactMoments(shot):
-    """(n, 2, 2) moments sum f (x) (c - x) of the grains [N m], compression positive, and the force on each wall along its axis [N]."""
+    """(n, 2, 2) moments sum f (x) (c - x) of the grains [N m], compression positive, and the force on each wall along
+    its axis [N].
+    """
     from yade import O
 
     moments, onWalls = np.zeros((len(shot.ids), 2, 2)), np.zeros(4)
@@ -104,12 +116,16 @@ def _contactMoments(shot):
             if body in wallOf:
                 onWalls[wallOf[body]] += push[wallOf[body] // 2]
             else:
-                moments[rowOf[body]] -= np.outer(push, (other if atWall else point) - end)  # a wall is reached at its foot
+                moments[rowOf[body]] -= np.outer(
+                    push, (other if atWall else point) - end
+                )  # a wall is reached at its foot
     return moments, onWalls
 
 
 def shareOfBox(shot):
-    """(n,) share of each grain in the area of the box [m^2]: a cell is shared out evenly among the grains at its corners."""
+    """(n,) share of each grain in the area of the box [m^2]: a cell is shared out evenly among the grains at its
+    corners.
+    """
     area = np.zeros(len(shot.ids))
     for cell, vertices in enumerate(shot.cellVertices):
         corners = shot.polygon(cell)
@@ -123,10 +139,11 @@ def shareOfBox(shot):
 
 
 def smoothField(stress, points, smoothing=SMOOTHING):
-    """Effective stress at ``points`` (m, 2) [m], smoothed with a Gaussian of ``smoothing`` mean diameters: (m, 2, 2) [Pa].
+    """Effective stress at ``points`` (m, 2) [m], smoothed with a Gaussian of ``smoothing`` mean diameters: (m, 2, 2)
+    [Pa].
 
-    sigma(x) = sum_i K(x - x_i) V_i sigma_i / sum_i K(x - x_i) V_i, K the Gaussian: an average over the material near x, which needs no care
-    at the rim of the box. :class:`CaseError` for a width that is not > 0.
+    sigma(x) = sum_i K(x - x_i) V_i sigma_i / sum_i K(x - x_i) V_i, K the Gaussian: an average over the material near x,
+    which needs no care at the rim of the box. :class:`CaseError` for a width that is not > 0.
     """
     if not (math.isfinite(smoothing) and smoothing > 0):
         raise CaseError(f"smoothing = {smoothing}, allowed: > 0 mean grain diameters")
@@ -138,9 +155,11 @@ def smoothField(stress, points, smoothing=SMOOTHING):
 
 
 def principal(tensors):
-    """Principal stresses and the direction of the larger one of (m, 2, 2) tensors (their symmetric parts): ``(sigma1, sigma2, angle)``.
+    """Principal stresses and the direction of the larger one of (m, 2, 2) tensors (their symmetric parts): ``(sigma1,
+    sigma2, angle)``.
 
-    sigma1 >= sigma2 [Pa], compression positive; angle [degrees] in [0, 180) from the horizontal. An open fracture lies along sigma1.
+    sigma1 >= sigma2 [Pa], compression positive; angle [degrees] in [0, 180) from the horizontal. An open fracture lies
+    along sigma1.
     """
     tensors = np.asarray(tensors, dtype=float)
     xx, yy, xy = tensors[..., 0, 0], tensors[..., 1, 1], 0.5 * (tensors[..., 0, 1] + tensors[..., 1, 0])

@@ -7,7 +7,9 @@ from capfrac.snapshot import WALL_AXIS, WALL_NAMES
 
 
 def gapsOf(snapshot, pairs):
-    """(m,) gaps of pairs of bodies in a snapshot [m], negative in overlap; NaN for two walls or bodies that are not in it."""
+    """(m,) gaps of pairs of bodies in a snapshot [m], negative in overlap; NaN for two walls or bodies that are not in
+    it.
+    """
     pairs = np.asarray(pairs, dtype=int).reshape(-1, 2)
     ends, rows = snapshot.endsOf(pairs), snapshot.rowOf(pairs)
     return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - np.where(rows >= 0, snapshot.r[rows], 0.0).sum(axis=1)
@@ -20,10 +22,12 @@ def meanRadii(snapshot, pairs):
 
 
 def openedThroats(now, start, openingThreshold=0.01):
-    """Growth of the gaps since the start and which throats have opened: ``(aperture [m], opened)``, arrays (t,) over the throats of ``now``.
+    """Growth of the gaps since the start and which throats have opened: ``(aperture [m], opened)``, arrays (t,) over
+    the throats of ``now``.
 
-    A throat has opened, as in ``GasInvasionEngine``, when its gap grew by more than ``openingThreshold`` mean radii of its pair
-    (the grain's radius at a wall), or when its bond is broken. :class:`CaseError` for snapshots of different grains.
+    A throat has opened, as in ``GasInvasionEngine``, when its gap grew by more than ``openingThreshold`` mean radii of
+    its pair (the grain's radius at a wall), or when its bond is broken. :class:`CaseError` for snapshots of different
+    grains.
     """
     if not np.array_equal(now.ids, start.ids):
         raise CaseError(f"start holds {len(start.ids)} grains, allowed: a snapshot of the same {len(now.ids)} grains")
@@ -36,19 +40,25 @@ def openedThroats(now, start, openingThreshold=0.01):
 
 
 def mergeGap(start):
-    """The gap beyond which the engine took an edge for open [m]: between the widest closed and the narrowest open one at the start."""
+    """The gap beyond which the engine took an edge for open [m]: between the widest closed and the narrowest open one
+    at the start.
+    """
     gaps = gapsOf(start, start.throatIds)
     known = np.isfinite(gaps)
     closed, wide = gaps[known & ~start.throatOpen], gaps[known & start.throatOpen]
-    return 0.5 * (closed.max() + wide.min()) if len(closed) and len(wide) and closed.max() < wide.min() else 1e-3 * float(np.min(start.r))
+    return (
+        0.5 * (closed.max() + wide.min())
+        if len(closed) and len(wide) and closed.max() < wide.min()
+        else 1e-3 * float(np.min(start.r))
+    )
 
 
 def signedAreas(snapshot, bodies):
     """(k,) areas of cells between these bodies (k, 3) in a snapshot, anticlockwise positive [m^2].
 
-    A cell is the triangle of three grains, the trapezoid of two grains and their feet on a wall, or the rectangle of one grain in the
-    corner of two walls. The bodies need not be neighbours in this snapshot: so the area of a region is followed back to where its bodies
-    were, and the sum over a region is the area within its rim.
+    A cell is the triangle of three grains, the trapezoid of two grains and their feet on a wall, or the rectangle of
+    one grain in the corner of two walls. The bodies need not be neighbours in this snapshot: so the area of a region is
+    followed back to where its bodies were, and the sum over a region is the area within its rim.
     """
     bodies = np.asarray(bodies, dtype=int).reshape(-1, 3)
     # Grains first, in their cyclic order: (a, b, c), (a, b, wall) or (a, wall, wall).

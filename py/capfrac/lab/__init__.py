@@ -10,7 +10,8 @@
     tables        macroscopic properties against grain size and microscopic parameters
     contacts      the contact law on two grains (Equations 1 and 2)
     percolation   fractal dimension of the gas in rigid networks of 1e5 pores and more
-    water         the tests of a fluid between the grains: diffusion, undrained compaction, consolidation, stability, closed forms
+    water         the tests of a fluid between the grains: diffusion, undrained compaction, consolidation, stability,
+                  closed forms
     figures       pictures of them
     reports       what the tests leave in their run folders
     command       ``capfrac lab``

@@ -76,14 +76,32 @@ def _defaults(test):
 
 def addParser(commands):
     """Put ``lab`` and its tests into the command's parser."""
-    lab = commands.add_parser("lab", help="run a laboratory test on a sediment", description="Make a sediment and measure it. Interrupted with Ctrl-C, the same "
-                              "command takes the test up where it stopped.")
+    lab = commands.add_parser(
+        "lab",
+        help="run a laboratory test on a sediment",
+        description=(
+            "Make a sediment and measure it. Interrupted with Ctrl-C, the same "
+            "command takes the test up where it stopped."
+        ),
+    )
     tests = lab.add_subparsers(dest="test", required=True, metavar="TEST")
     for name, title in TITLES.items():
-        test = tests.add_parser(name, help=title, description=title[0].upper() + title[1:] + ".", epilog="Parameters: `capfrac lab " + name + " --keys`.")
+        test = tests.add_parser(
+            name,
+            help=title,
+            description=title[0].upper() + title[1:] + ".",
+            epilog="Parameters: `capfrac lab " + name + " --keys`.",
+        )
         test.add_argument("file", nargs="?", help="parameters (TOML): sections [grains] and [" + name + "]")
         test.add_argument("-o", "--output", help=f"run folder (default: runs/lab-{name})")
-        test.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a parameter, e.g. -s grains.count=500")
+        test.add_argument(
+            "-s",
+            "--set",
+            action="append",
+            default=[],
+            metavar="SECTION.KEY=VALUE",
+            help="replace a parameter, e.g. -s grains.count=500",
+        )
         test.add_argument("--keys", action="store_true", help="list every parameter with its unit, default and meaning")
         environment.addOption(test, "threads of the test")
         test.add_argument("--restart", action="store_true", help="discard an earlier run in the folder")
@@ -111,8 +129,9 @@ def main(arguments):
     values, warnings = parameters.resolveTelling(test, raw, arguments.file or "arguments", problems)
     folder = arguments.output or f"runs/lab-{test}"
     try:
-        results = runTest(test, values, folder, arguments.restart, _reporter(arguments.quiet), base, arguments.threads,
-                          warnings)
+        results = runTest(
+            test, values, folder, arguments.restart, _reporter(arguments.quiet), base, arguments.threads, warnings
+        )
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command takes the test up again from {folder}", file=sys.stderr)
         return 130

@@ -8,11 +8,13 @@ A test asks its :class:`LabRun` before every stage::
 
 What a stage has to remember beside YADE's scene it keeps in ``run.data`` (numbers, texts, lists, dicts), which is saved
 together with the scene. Stages work towards absolute targets, so one that was interrupted goes on from the checkpoint.
-A test of several samples wraps each into :meth:`LabRun.result`. Without a folder nothing is written: for use in scripts.
+A test of several samples wraps each into :meth:`LabRun.result`. Without a folder nothing is written: for use in
+scripts.
 
-A scene that was loaded differs from the one that was saved in the order of its contacts, so sums of forces differ in the
-last digit, and grains that slide make more of it. A run therefore goes on from the checkpoint that it has just saved, at
-moments that depend on the test alone: interrupted or not, with a folder or without, its results are the same bits.
+A scene that was loaded differs from the one that was saved in the order of its contacts, so sums of forces differ in
+the last digit, and grains that slide make more of it. A run therefore goes on from the checkpoint that it has just
+saved, at moments that depend on the test alone: interrupted or not, with a folder or without, its results are the same
+bits.
 
 A run folder holds ``summary.json`` (parameters, results, versions), ``tables/*.csv``, ``pictures/*.png``, and while the
 run is not finished ``state.json`` with the scene of the last checkpoint in ``scenes/``.
@@ -60,8 +62,13 @@ class LabRun:
                 from capfrac.injection import versions
 
                 del parameters["test"]
-                self.folder.writeSummary(state="running", test=test, parameters=parameters, versions=versions(),
-                                         threads=environment.most(self.folder.summary))
+                self.folder.writeSummary(
+                    state="running",
+                    test=test,
+                    parameters=parameters,
+                    versions=versions(),
+                    threads=environment.most(self.folder.summary),
+                )
 
     @property
     def finished(self):
@@ -79,10 +86,22 @@ class LabRun:
             return
         try:
             state = json.loads(path.read_text(encoding="utf-8"))
-            wanted = {"data": dict, "done": list, "results": dict, "scene": (str, type(None)), "count": int, "current": (str, type(None))}
-            if not (isinstance(state, dict) and all(key in state and isinstance(state[key], kind) for key, kind in wanted.items())):
+            wanted = {
+                "data": dict,
+                "done": list,
+                "results": dict,
+                "scene": (str, type(None)),
+                "count": int,
+                "current": (str, type(None)),
+            }
+            if not (
+                isinstance(state, dict)
+                and all(key in state and isinstance(state[key], kind) for key, kind in wanted.items())
+            ):
                 raise ValueError("not the state of a run")
-            self.data, self._done, self._results, self._scene, self._count, self._current = (state[key] for key in wanted)
+            self.data, self._done, self._results, self._scene, self._count, self._current = (
+                state[key] for key in wanted
+            )
         except (OSError, ValueError) as problem:
             raise RunFolderError(f"{path} cannot be read ({problem}); --restart discards the run") from None
         self._pending = self._scene is not None
@@ -96,10 +115,16 @@ class LabRun:
         try:
             O.reset()
             O.load(str(path), quiet=True)
-        except (RuntimeError, MemoryError, ValueError) as problem:  # what YADE raises depends on where the file ends to make sense
+        except (
+            RuntimeError,
+            MemoryError,
+            ValueError,
+        ) as problem:  # what YADE raises depends on where the file ends to make sense
             O.reset()
-            raise RunFolderError(f"the checkpoint {path} cannot be read ({problem or type(problem).__name__}): damaged, or of another version; "
-                                 "--restart discards the run") from None
+            raise RunFolderError(
+                f"the checkpoint {path} cannot be read ({problem or type(problem).__name__}): damaged, or of another"
+                " version; --restart discards the run"
+            ) from None
         environment.adoptScene()
         self._pending = False
 
@@ -117,8 +142,8 @@ class LabRun:
     def result(self, name, work):
         """The value of ``work()`` (numbers, texts, lists, dicts), computed once; ``work`` may use stages of its own.
 
-        The scene is emptied first, unless it is that of an interrupted ``work``, and what its stages remember is forgotten
-        afterwards.
+        The scene is emptied first, unless it is that of an interrupted ``work``, and what its stages remember is
+        forgotten afterwards.
         """
         if name in self._results:
             return self._results[name]
@@ -168,7 +193,14 @@ class LabRun:
             self.folder.sub("scenes")
             self._scene = f"scenes/{self._count}.yade.gz"
             self.folder.writeWhole(self._scene, lambda path: O.save(str(path), quiet=True))
-        state = {"data": self.data, "done": self._done, "results": self._results, "scene": self._scene, "count": self._count, "current": self._current}
+        state = {
+            "data": self.data,
+            "done": self._done,
+            "results": self._results,
+            "scene": self._scene,
+            "count": self._count,
+            "current": self._current,
+        }
         text = json.dumps(state)
         self.folder.writeWhole("state.json", lambda path: path.write_text(text, encoding="utf-8"))
         if old:
@@ -202,7 +234,9 @@ class LabRun:
         (self.folder.path / "state.json").unlink(missing_ok=True)
         scenes = self.folder.path / "scenes"
         if scenes.is_dir():
-            for entry in list(scenes.glob("*.yade.gz")):  # those of a process that was killed as it wrote or cleared them, too
+            for entry in list(
+                scenes.glob("*.yade.gz")
+            ):  # those of a process that was killed as it wrote or cleared them, too
                 entry.unlink()
             if not any(scenes.iterdir()):
                 scenes.rmdir()

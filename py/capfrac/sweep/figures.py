@@ -4,7 +4,9 @@ from pathlib import Path
 
 
 def draw(name, table, folder):
-    """Draw the figures called ``name`` (as in ``sweep.figures``) from a table into a folder; returns the paths of what was written."""
+    """Draw the figures called ``name`` (as in ``sweep.figures``) from a table into a folder; returns the paths of what
+    was written.
+    """
     folder = Path(folder)
     if not name:
         return []

@@ -56,8 +56,10 @@ def resolvePoints(base, fixed, rules, grids):
         except CaseError as problem:
             for text in problem.problems:
                 amiss.setdefault(text, []).append(_name(axes))
-    problems = [f"point {names[0]}: {text}{f' (and {len(names) - 1} more points)' if len(names) > 1 else ''}"
-                for text, names in amiss.items()]
+    problems = [
+        f"point {names[0]}: {text}{f' (and {len(names) - 1} more points)' if len(names) > 1 else ''}"
+        for text, names in amiss.items()
+    ]
     if len(problems) > MOST_TOLD:
         problems[MOST_TOLD:] = [f"and {len(problems) - MOST_TOLD} more problems of points"]
     problems += _sameNames(points)
@@ -71,8 +73,10 @@ def _sameNames(points):
     names = Counter(point.name.casefold() for point in points)  # some disks do not know capitals
     for folder in {point.name.casefold(): point.name for point in reversed(points)}.values():
         if (count := names[folder.casefold()]) > 1:
-            yield (f"{count} points would be called {folder}: values of an axis must differ in their first six digits, "
-                   "or by more than capitals")
+            yield (
+                f"{count} points would be called {folder}: values of an axis must differ in their first six digits, "
+                "or by more than capitals"
+            )
 
 
 def _sameRuns(points):
@@ -82,8 +86,10 @@ def _sameRuns(points):
         other = first.setdefault((point.key, json.dumps(point.case["output"], sort_keys=True)), point)
         if other is not point:
             axes = ", ".join(key for key in point.values if point.values[key] != other.values[key])
-            yield (f"the points {other.name} and {point.name} would be the same run: {axes} has no effect in them; "
-                   "leave one value of it")
+            yield (
+                f"the points {other.name} and {point.name} would be the same run: {axes} has no effect in them; "
+                "leave one value of it"
+            )
             return
 
 
@@ -145,8 +151,12 @@ def _numbers(base, given):
     for key, value in given.items():
         tomlfiles.override(raw, f"{key}={_toml(value)}")
     case, _, _ = keys.check(raw, KEYS)
-    return {f"{section}.{key}": value for section, entries in case.items() for key, value in entries.items()
-            if isinstance(value, (int, float)) and not isinstance(value, bool)}
+    return {
+        f"{section}.{key}": value
+        for section, entries in case.items()
+        for key, value in entries.items()
+        if isinstance(value, (int, float)) and not isinstance(value, bool)
+    }
 
 
 def _byNeed(rules):
@@ -163,8 +173,9 @@ def _byNeed(rules):
 
 def _name(axes):
     parts = [(axis.rpartition(".")[2], value) for axis, value in axes.items()]
-    return "_".join(f"{name}-{value}" if asFloat(value) is None else f"{name}{value:g}"
-                    for name, value in parts).replace("/", "-")
+    return "_".join(
+        f"{name}-{value}" if asFloat(value) is None else f"{name}{value:g}" for name, value in parts
+    ).replace("/", "-")
 
 
 def _toml(value):

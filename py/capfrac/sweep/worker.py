@@ -13,7 +13,9 @@ _PR_SET_PDEATHSIG = 1
 
 
 def dieWith(parent):
-    """Have this process killed when the process (thread) that started it ends; ``parent`` is that process's id. Linux only, as YADE."""
+    """Have this process killed when the process (thread) that started it ends; ``parent`` is that process's id. Linux
+    only, as YADE.
+    """
     ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != parent:  # it ended before the line above
         os._exit(1)
@@ -27,7 +29,9 @@ def main():
     """
     parent, folder, key, threads, base, *overrides = sys.argv[1:]
     dieWith(int(parent))
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a sweep in the background of a script hands an ignored one on
+    signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # a sweep in the background of a script hands an ignored one on
     from capfrac.case import readCase
     from capfrac.errors import CapfracError, CaseError
     from capfrac.injection import inject

@@ -1,7 +1,7 @@
 """Laboratory tests of a fluid between the grains, by ``SinglePhaseFlowEngine``.
 
-    diffusion      permeability, storage and diffusion of pressure (Table 1, Figures 11, 12); its runs are in ``transient``, its formulas in
-                   ``profiles``, its steps of time in ``schemes``
+    diffusion      permeability, storage and diffusion of pressure (Table 1, Figures 11, 12); its runs are in
+                   ``transient``, its formulas in ``profiles``, its steps of time in ``schemes``
     undrained      compaction of a sealed sample, Biot's and Skempton's coefficients (Figure 13)
     consolidation  Terzaghi's and Mandel's problems; their solutions are in ``poroelasticity``
     stability      long runs: energy, flips, books of the mass

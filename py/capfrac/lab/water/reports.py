@@ -19,7 +19,11 @@ def _diffusion(sample, own, run, base):
     run.picture("figure12", lambda path: diffusion_figures.drawProfiles(found, path))
     if found["schemes"]:
         run.picture("explicit", lambda path: diffusion_figures.drawSchemes(found, path))
-        found["schemes"] = {key: value for key, value in found["schemes"].items() if key not in ("rates", "profiles", "implicitProfiles")}
+        found["schemes"] = {
+            key: value
+            for key, value in found["schemes"].items()
+            if key not in ("rates", "profiles", "implicitProfiles")
+        }
     return {key: value for key, value in found.items() if key not in ("rates", "profiles")}
 
 
@@ -35,7 +39,10 @@ def _undrained(sample, own, run, base):
     run.table("undrained", {f"{name} [{'-' if name == 'strain' else 'Pa'}]": found[name] for name in columns})
     run.picture("figure13", lambda path: figures.drawUndrained(found, path))
     if "compressible" in found:
-        run.table("compressible", {f"{name} [{'-' if name == 'strain' else 'Pa'}]": found["compressible"][name] for name in columns})
+        run.table(
+            "compressible",
+            {f"{name} [{'-' if name == 'strain' else 'Pa'}]": found["compressible"][name] for name in columns},
+        )
         found["compressible"] = {key: value for key, value in found["compressible"].items() if key not in columns}
     return {key: value for key, value in found.items() if key not in columns}
 
@@ -56,11 +63,34 @@ def _stability(sample, own, run, base):
     run.picture("stability", lambda path: figures.drawStability(found, path))
     for kind, unit in (("shake", "energy [-]"), ("stir", "flips [-]")):
         for name, one in found[kind].items():
-            run.table(f"{kind}-{name}".replace(" ", "_"), {"steps [-]": one["steps"], unit: one[unit.split()[0]], "ledger [-]": one["ledger"], "pressure [Pa]": one["pressure"]})
-    return {kind: {name: {key: (max(value) if key in ("energy", "ledger", "pressure") else value) for key, value in one.items() if key not in ("steps", "motion", "strain", "flips", "smallest")}
-                   for name, one in found[kind].items()} for kind in ("shake", "stir")}
+            run.table(
+                f"{kind}-{name}".replace(" ", "_"),
+                {
+                    "steps [-]": one["steps"],
+                    unit: one[unit.split()[0]],
+                    "ledger [-]": one["ledger"],
+                    "pressure [Pa]": one["pressure"],
+                },
+            )
+    return {
+        kind: {
+            name: {
+                key: max(value) if key in ("energy", "ledger", "pressure") else value
+                for key, value in one.items()
+                if key not in ("steps", "motion", "strain", "flips", "smallest")
+            }
+            for name, one in found[kind].items()
+        }
+        for kind in ("shake", "stir")
+    }
 
 
 #: The function of each test.
-REPORTS = {"closed-forms": _closedForms, "diffusion": _diffusion, "undrained": _undrained, "terzaghi": _consolidation("terzaghi", figures.drawTerzaghi),
-           "mandel": _consolidation("mandel", figures.drawMandel), "stability": _stability}
+REPORTS = {
+    "closed-forms": _closedForms,
+    "diffusion": _diffusion,
+    "undrained": _undrained,
+    "terzaghi": _consolidation("terzaghi", figures.drawTerzaghi),
+    "mandel": _consolidation("mandel", figures.drawMandel),
+    "stability": _stability,
+}

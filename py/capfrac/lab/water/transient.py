@@ -1,7 +1,7 @@
 """The runs of the diffusion test on the sample in the scene: its steady flow, and the diffusion in steps of time.
 
-The engine is alone, so the grains stand still. ``fluid`` stands for the attributes of `SinglePhaseFlowEngine`, with pressures along
-bottom and top, ``wallPressures`` = [nan, nan, 0, Delta p].
+The engine is alone, so the grains stand still. ``fluid`` stands for the attributes of `SinglePhaseFlowEngine`, with
+pressures along bottom and top, ``wallPressures`` = [nan, nan, 0, Delta p].
 """
 
 import math
@@ -26,9 +26,10 @@ def stepEnds(steps):
 def steadyFlow(fluid):
     """Geometry and steady flow, from one step of an incompressible fluid: a dict.
 
-    ``permeability`` [m^2], ``porosity`` of the box, ``porosityBetween`` the pores of prescribed pressures, ``height`` H and ``bottom`` of it, ``width``,
-    mean ``diameter`` [m], ``steadyFlow`` [m^3/s], ``characteristicTime`` T_c from the sum over the pores [s], ``grains``, ``pores`` (numbers).
-    Arrays, of each pore: ``xi`` (place over H), ``volume`` [m^3], ``steady`` (pressure over Delta p), ``free`` (not prescribed), ``layer`` (its number).
+    ``permeability`` [m^2], ``porosity`` of the box, ``porosityBetween`` the pores of prescribed pressures, ``height`` H
+    and ``bottom`` of it, ``width``, mean ``diameter`` [m], ``steadyFlow`` [m^3/s], ``characteristicTime`` T_c from the
+    sum over the pores [s], ``grains``, ``pores`` (numbers). Arrays, of each pore: ``xi`` (place over H), ``volume``
+    [m^3], ``steady`` (pressure over Delta p), ``free`` (not prescribed), ``layer`` (its number).
     """
     from yade import O
 
@@ -45,10 +46,24 @@ def steadyFlow(fluid):
     layers = max(1, round((xi.max() - xi.min()) * height / (LAYER * diameter)))
     layer = np.clip(((xi - xi.min()) / (xi.max() - xi.min()) * layers).astype(int), 0, layers - 1)
     storing = float((volume * steady * (1 - steady)).sum())
-    return {"permeability": viscosity * height * flux / (width * pressure), "porosity": float(volume.sum() / (width * boxHeight)),
-            "porosityBetween": float(volume[free].sum()) / _areaBetween(flow, pressure), "height": height, "width": width, "bottom": low,
-            "diameter": diameter, "steadyFlow": flux, "characteristicTime": 6 * pressure / (fluid["bulkModulus"] * flux) * storing,
-            "grains": len(grains), "pores": len(y), "xi": xi, "volume": volume, "steady": steady, "free": free, "layer": layer}
+    return {
+        "permeability": viscosity * height * flux / (width * pressure),
+        "porosity": float(volume.sum() / (width * boxHeight)),
+        "porosityBetween": float(volume[free].sum()) / _areaBetween(flow, pressure),
+        "height": height,
+        "width": width,
+        "bottom": low,
+        "diameter": diameter,
+        "steadyFlow": flux,
+        "characteristicTime": 6 * pressure / (fluid["bulkModulus"] * flux) * storing,
+        "grains": len(grains),
+        "pores": len(y),
+        "xi": xi,
+        "volume": volume,
+        "steady": steady,
+        "free": free,
+        "layer": layer,
+    }
 
 
 def _areaBetween(flow, pressure):
@@ -63,14 +78,22 @@ def _areaBetween(flow, pressure):
 def transient(fluid, sample, scheme, ends, substeps=1):
     """Run the diffusion with the ``scheme`` 'implicit' or 'explicit'; a dict.
 
-    ``sample``: of :func:`steadyFlow`. Each step that ends at one of ``ends`` (over T_c) is parted into ``substeps``; 'explicit' takes as many as its
-    limit asks for, at 0.9 of it. ``rates``: lists ``tau``, ``inflow`` and ``outflow`` (over the steady flow); ``missing``: the integral of 1 - outflow
-    over tau; ``pressures``: arrays of the pores' over Delta p at those of :data:`PROFILE_TIMES` that are among the ends; ``steps`` in all, ``timeStep``, the
-    longest [s]; ``ledger``.
+    ``sample``: of :func:`steadyFlow`. Each step that ends at one of ``ends`` (over T_c) is parted into ``substeps``;
+    'explicit' takes as many as its limit asks for, at 0.9 of it. ``rates``: lists ``tau``, ``inflow`` and ``outflow``
+    (over the steady flow); ``missing``: the integral of 1 - outflow over tau; ``pressures``: arrays of the pores' over
+    Delta p at those of :data:`PROFILE_TIMES` that are among the ends; ``steps`` in all, ``timeStep``, the longest [s];
+    ``ledger``.
     """
     from yade import O
 
-    flow, unit, tau, count, longest, missing = alone(timeIntegration=scheme, maxSizeRatio=100, **fluid), sample["characteristicTime"], 0.0, 0, 0.0, 0.0
+    flow, unit, tau, count, longest, missing = (
+        alone(timeIntegration=scheme, maxSizeRatio=100, **fluid),
+        sample["characteristicTime"],
+        0.0,
+        0,
+        0.0,
+        0.0,
+    )
     limit = 0.9 * flow.explicitTimeStepLimit() if scheme == "explicit" else math.inf
     rates, pressures = {"tau": [], "inflow": [], "outflow": []}, []
     for end in ends:
@@ -78,12 +101,24 @@ def transient(fluid, sample, scheme, ends, substeps=1):
         O.dt = (end - tau) * unit / parts
         for _ in range(parts):
             O.step()
-            # The flow of the step, whichever its end at which the scheme takes it: so summed up, steps of any length make no error.
+            # The flow of the step, whichever its end at which the scheme takes it: so summed up, steps of any length
+            # make no error.
             missing += (end - tau) / parts * (1 + flow.wallInflow[2] / sample["steadyFlow"])
         tau, count, longest = end, count + parts, max(longest, O.dt)
         inflow = flow.inflow()
-        for name, value in (("tau", tau), ("inflow", inflow["top"] / sample["steadyFlow"]), ("outflow", -inflow["bottom"] / sample["steadyFlow"])):
+        for name, value in (
+            ("tau", tau),
+            ("inflow", inflow["top"] / sample["steadyFlow"]),
+            ("outflow", -inflow["bottom"] / sample["steadyFlow"]),
+        ):
             rates[name].append(float(value))
         if end in PROFILE_TIMES:
             pressures.append(np.array(flow.pores()["pressure"]) / fluid["wallPressures"][3])
-    return {"rates": rates, "missing": missing, "pressures": pressures, "steps": count, "timeStep": longest, "ledger": float(flow.volumes()["error"])}
+    return {
+        "rates": rates,
+        "missing": missing,
+        "pressures": pressures,
+        "steps": count,
+        "timeStep": longest,
+        "ledger": float(flow.volumes()["error"]),
+    }

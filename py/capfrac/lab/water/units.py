@@ -1,17 +1,19 @@
 """The same problem stated in other units gives the same dimensionless curves, moving grains included.
 
-A program that hides a length, a time or a mass (a tolerance in metres, a thickness of "1") gives other curves when metres,
-seconds and kilograms are replaced. Three problems are stated in several systems of units:
+A program that hides a length, a time or a mass (a tolerance in metres, a thickness of "1") gives other curves when
+metres, seconds and kilograms are replaced. Three problems are stated in several systems of units:
 
     diffusion   a settled sample stands still, a pressure set along the top spreads to the bottom
-    lattice     a bonded lattice of unlike grains is sealed and compressed: no contact opens, closes or slides, the water damps the waves
+    lattice     a bonded lattice of unlike grains is sealed and compressed: no contact opens, closes or slides, the
+                water damps the waves
     damped      the same with the local damping of quasi-static tests
     sample      the settled sample is sealed and compressed, damped: grains slide, rattle, gain and lose contacts
 
 In units that are powers of two of the SI's every number is the same but for its exponent: what differs then is not
-round-off, and a hidden constant shows. In all others every number rounds differently. The lattice, as good as linear, leaves it at
-that. Local damping is a force against the velocity's sign: where that changes, what differs in the last digit differs by a
-force, and so do grains that hit each other. Differences then grow until they are what the smallest push would do.
+round-off, and a hidden constant shows. In all others every number rounds differently. The lattice, as good as linear,
+leaves it at that. Local damping is a force against the velocity's sign: where that changes, what differs in the last
+digit differs by a force, and so do grains that hit each other. Differences then grow until they are what the smallest
+push would do.
 """
 
 import math
@@ -45,10 +47,15 @@ class Units:
 
 
 SI = Units("m, s, kg")
-#: Systems that are compared with the SI's: two of powers of two, with length^4 time/mass an even one (the unit of the pores' matrix, of whose
-#: diagonal the solver takes square roots), and three of others.
-SYSTEMS = (Units("2^-10 m, 2^-16 s, 2^-20 kg", 2.0**-10, 2.0**-16, 2.0**-20), Units("2^-11 m, 2^-17 s, 2^5 kg", 2.0**-11, 2.0**-17, 2.0**5),
-           Units("mm, ms, g", 1e-3, 1e-3, 1e-3), Units("µm, µs, µg", 1e-6, 1e-6, 1e-9), Units("inch, minute, pound", 0.0254, 60.0, 0.45359237))
+#: Systems that are compared with the SI's: two of powers of two, with length^4 time/mass an even one (the unit of the
+#: pores' matrix, of whose diagonal the solver takes square roots), and three of others.
+SYSTEMS = (
+    Units("2^-10 m, 2^-16 s, 2^-20 kg", 2.0**-10, 2.0**-16, 2.0**-20),
+    Units("2^-11 m, 2^-17 s, 2^5 kg", 2.0**-11, 2.0**-17, 2.0**5),
+    Units("mm, ms, g", 1e-3, 1e-3, 1e-3),
+    Units("µm, µs, µg", 1e-6, 1e-6, 1e-9),
+    Units("inch, minute, pound", 0.0254, 60.0, 0.45359237),
+)
 PROBLEMS = ("diffusion", "lattice", "damped", "sample")
 
 
@@ -60,9 +67,10 @@ def defaultSample():
 def checkUnits(sample=None, bulkModulus=1e7, viscosity=1e-3, systems=SYSTEMS, run=None):
     """Run the problems of this module in SI units and in ``systems`` of :class:`Units`: a dict. The scene is replaced.
 
-    ``sample``: grains, contacts [SI]; the fluid's ``bulkModulus`` [Pa] and ``viscosity`` [Pa s]. For each of :data:`PROBLEMS`: ``curves`` by name of the system
-    (rows of dimensionless numbers: for ``diffusion`` the pores' pressures over the one that was set, otherwise the fluid's mean pressure and the stress
-    on the top wall, over K_f), and ``differences``, the largest from the SI's over the largest number. :class:`CaseError` for impossible values.
+    ``sample``: grains, contacts [SI]; the fluid's ``bulkModulus`` [Pa] and ``viscosity`` [Pa s]. For each of
+    :data:`PROBLEMS`: ``curves`` by name of the system (rows of dimensionless numbers: for ``diffusion`` the pores'
+    pressures over the one that was set, otherwise the fluid's mean pressure and the stress on the top wall, over K_f),
+    and ``differences``, the largest from the SI's over the largest number. :class:`CaseError` for impossible values.
     """
     sample = sample or defaultSample()
     run = run or LabRun("units", {})
@@ -74,9 +82,14 @@ def checkUnits(sample=None, bulkModulus=1e7, viscosity=1e-3, systems=SYSTEMS, ru
     for problem in PROBLEMS:
         curves = {}
         for system in (SI, *systems):
-            curves[system.name] = run.result(f"{problem} in {system.name}", lambda: _RUN[problem](sample, settled, bulkModulus, viscosity, system))
+            curves[system.name] = run.result(
+                f"{problem} in {system.name}", lambda: _RUN[problem](sample, settled, bulkModulus, viscosity, system)
+            )
         reference = np.array(curves[SI.name])
-        off = {system.name: float(np.max(np.abs(np.array(curves[system.name]) - reference)) / np.max(np.abs(reference))) for system in systems}
+        off = {
+            system.name: float(np.max(np.abs(np.array(curves[system.name]) - reference)) / np.max(np.abs(reference)))
+            for system in systems
+        }
         found[problem] = {"curves": curves, "differences": off}
     return found
 
@@ -86,8 +99,12 @@ def _settled(sample, run):
     prepareSample(sample, 0.5 * OVERLAP * sample.normalStiffness, run)  # k_n 2r OVERLAP/2 on a width of 2r
     walls = sediment.wallBodies()
     columns = zip(*((*tuple(body.state.pos)[:2], body.shape.radius) for body in sediment.grainBodies()))
-    return {"grains": [list(map(float, column)) for column in columns],
-            "box": [float(walls[name].state.pos[axis]) for name, axis in (("left", 0), ("right", 0), ("bottom", 1), ("top", 1))]}
+    return {
+        "grains": [list(map(float, column)) for column in columns],
+        "box": [
+            float(walls[name].state.pos[axis]) for name, axis in (("left", 0), ("right", 0), ("bottom", 1), ("top", 1))
+        ],
+    }
 
 
 def _state(sample, pack, bulkModulus, viscosity, units):
@@ -95,19 +112,27 @@ def _state(sample, pack, bulkModulus, viscosity, units):
     from yade import O
 
     O.reset()
-    # A disk is w = 1 m thick, whatever the unit of length: masses per area and forces per length are what the scene knows.
+    # A disk is w = 1 m thick, whatever the unit of length: masses per area and forces per length are what the scene
+    # knows.
     lengths = {name: units.of(getattr(sample, name), length=1) for name in ("rMin", "rMax")}
-    stiffnesses = {name: units.of(getattr(sample, name), time=-2, mass=1) for name in ("normalStiffness", "shearStiffness")}
+    stiffnesses = {
+        name: units.of(getattr(sample, name), time=-2, mass=1) for name in ("normalStiffness", "shearStiffness")
+    }
     inUnits = sediment.changed(sample, density=units.of(sample.density, length=-2, mass=1), **lengths, **stiffnesses)
     x, y, r = (units.of(np.array(column), length=1) for column in pack["grains"])
     sediment.buildScene(inUnits, x, y, r, tuple(units.of(side, length=1) for side in pack["box"]))
     for body, radius in zip(sediment.grainBodies(), pack["grains"][2]):
-        # The same numbers but for the exponent where the units are powers of two; r**2, a call of pow(), may round otherwise there.
+        # The same numbers but for the exponent where the units are powers of two; r**2, a call of pow(), may round
+        # otherwise there.
         mass = math.pi * radius * radius * sample.density
         body.state.mass = units.of(mass, mass=1)
         body.state.inertia = (1.0, 1.0, units.of(0.5 * mass * radius * radius, length=2, mass=1))
-    return {"bulkModulus": units.of(bulkModulus, length=-1, time=-2, mass=1), "viscosity": units.of(viscosity, length=-1, time=-1, mass=1),
-            "thickness": units.of(1.0, length=1), "maxSizeRatio": 100}
+    return {
+        "bulkModulus": units.of(bulkModulus, length=-1, time=-2, mass=1),
+        "viscosity": units.of(viscosity, length=-1, time=-1, mass=1),
+        "thickness": units.of(1.0, length=1),
+        "maxSizeRatio": 100,
+    }
 
 
 def _diffusion(sample, settled, bulkModulus, viscosity, units):
@@ -128,7 +153,8 @@ def _diffusion(sample, settled, bulkModulus, viscosity, units):
 
 def _lattice(sample, settled, bulkModulus, viscosity, units, damping=0.0):
     disks, box = triangularLattice(8, 9, sample.rMin, -2 * OVERLAP * sample.rMin)
-    # Unlike grains, so that they move and turn, and that one triangulation of the layers along the walls is better than others.
+    # Unlike grains, so that they move and turn, and that one triangulation of the layers along the walls is better than
+    # others.
     disks = [(x, y, r * (1 + 0.5 * OVERLAP * math.sin(k * k))) for k, (x, y, r) in enumerate(disks)]
     return _compress(sample, {"grains": list(zip(*disks)), "box": box}, bulkModulus, viscosity, units, True, damping)
 
@@ -161,7 +187,12 @@ def _compress(sample, pack, bulkModulus, viscosity, units, bonded, damping):
         sediment.advance(STEPS // ROWS)
         pores = flow.pores()
         stress = O.forces.f(wall.id)[1] / (units.of(right - left, length=1) * fluid["thickness"])
-        rows.append([float(np.average(pores["pressure"], weights=pores["volume"])) / fluid["bulkModulus"], stress / fluid["bulkModulus"]])
+        rows.append(
+            [
+                float(np.average(pores["pressure"], weights=pores["volume"])) / fluid["bulkModulus"],
+                stress / fluid["bulkModulus"],
+            ]
+        )
     return rows
 
 
