@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Runs the pressure cycles of the manual and draws them: capfrac python doc/make_cycle.py [grains].
 
 The sample of Figure 15 (coarse), inlet of six pores, drained to 215 Pa, imbibed to nothing, drained again, with

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Draws the pictures of the README and the manual from finished runs: capfrac python doc/make_figures.py RUNS.
 
 RUNS is the folder that scripts/demo filled. Nothing is drawn that is not in a run.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Draws Figure 14 for the manual, and writes its table and tests: capfrac python doc/make_fracture.py RUNS [TOUGHNESS].
 
 RUNS is the folder of `scripts/test --validation` (with figure14-seed1 …), TOUGHNESS the run folder of `capfrac lab

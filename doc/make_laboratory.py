@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Puts the results of `scripts/laboratory` into the manual: capfrac python doc/make_laboratory.py [RUNS].
 
 Copies pictures, draws those that come from a summary alone, and writes the tables of doc/laboratory.md between its

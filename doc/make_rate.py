@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Draws doc/figures/rate.png from the runs of tests/validation/rate.py: capfrac python doc/make_rate.py.
 
 Runs that are missing are made first (half an hour).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Figures and tables of doc/regime_map.md and doc/hydrate_ridge.md: capfrac python doc/make_regime.py [RUNS].
 
 RUNS is a folder with the sweeps regime_map and hydrate_ridge_depth; their tables are copied to doc/data. Figures and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Writes the tables of doc/validation.md and README.md from the runs: python3 doc/make_tables.py [RUNS].
 
 RUNS is the folder of `scripts/test --validation` with its CSV files; they are copied to doc/data, and the tables

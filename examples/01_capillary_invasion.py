@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Coarse grains: gas slips between them (Figure 15 of Jain & Juanes 2008), driven step by step from Python.
 
     capfrac python examples/01_capillary_invasion.py [grainCount] [seed]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Fine grains: gas pushes them apart (Figure 16 of Jain & Juanes 2008), and how the width of the inlet decides when.
 
     capfrac python examples/02_fracture.py [grainCount] [seed]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Sedimentation: grains fall at random places and come to rest (Figures 7 and 8 of Jain & Juanes 2008).
 
     capfrac python examples/04_sedimentation.py [folder]

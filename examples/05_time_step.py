@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The time step grows with the grains and falls with their stiffness (Figure 9 of Jain & Juanes 2008).
 
     capfrac python examples/05_time_step.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Dry uniaxial compaction with unload-reload loops (the model's part of Figure 10 of Jain & Juanes 2008).
 
     capfrac python examples/06_compaction.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Which contact stiffness gives a sediment its compressibility? The one free parameter of Figure 10.
 
     capfrac python examples/07_find_stiffness.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Hydrate Ridge: what of its reported compressibility can the model have, and what not? (Figure 10)
 
     capfrac python examples/08_hydrate_ridge.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Stress paths in the servo-controlled box: isotropic, K0, uniaxial, biaxial, constant mean stress.
 
     capfrac python examples/09_stress_paths.py [folder]

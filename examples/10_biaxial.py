@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Biaxial tests of a bonded sample: Young's modulus, Poisson's ratio, friction angle, cohesion, Mohr circles.
 
     capfrac python examples/10_biaxial.py [folder]

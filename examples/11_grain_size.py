@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """With strengths by Eq. 5 and a constant k_n the macroscopic properties do not depend on the grain size.
 
     capfrac python examples/11_grain_size.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Which microscopic parameter turns which macroscopic property? A table to calibrate a sediment with.
 
     capfrac python examples/12_calibration.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Water diffuses into a sample: permeability, storage, pressure (Table 1, Figures 11 and 12 of Jain & Juanes 2008).
 
     capfrac python examples/14_pressure_diffusion.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A sealed sample is compressed: total, dry and pore pressure, Biot coefficient (Figure 13 of Jain & Juanes 2008).
 
     capfrac python examples/15_undrained_compaction.py [folder]

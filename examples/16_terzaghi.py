@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A water-filled layer is loaded and settles as its water leaves through the top (Terzaghi's consolidation).
 
     capfrac python examples/16_terzaghi.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A water-filled block is loaded between tight plates and drained at its sides: the pressure in its middle rises first
 (Mandel).
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Water between grains set by hand against formulas in closed form: two pores, series and parallel, lattices, a pulse,
 other units.
 

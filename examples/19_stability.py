@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Real water at the time step of the dry grains, for a long time: energy, flips, and the books of the water.
 
     capfrac python examples/19_stability.py [folder]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Many injections from one file: the beginning of the regime map, and where the mode changes.
 
     capfrac python examples/20_regime_map.py [folder] [points] [processes]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Invasion percolation in rigid networks of 1e5 pores: how gas fills a coarse sediment, with and without trapping.
 
     capfrac python examples/21_percolation.py [folder]

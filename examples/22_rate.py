@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Gas at a constant rate instead of a constant pressure: the pressure that follows, and what a dead volume does to it.
 
     capfrac python examples/22_rate.py [grainCount] [seed] [FOLDER]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A pressure cycle: drainage, imbibition, drainage again. The loop of P_c and S_g, and the gas that stays behind.
 
     capfrac python examples/23_cycle.py [picture.png] [grainCount] [seed]

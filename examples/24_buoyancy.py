@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Buoyancy: gas that rises through a tall, rigid column fingers, gas that is pushed down from above does not.
 
     capfrac python examples/24_buoyancy.py [grainCount] [seeds]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Gas let in around the middle: under equal stresses it fractures the sediment in any direction (Figure 14 of Jain &
 Juanes 2008), else upright.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Fracture toughness: the gas pressure that drives a crack on, by its length, against linear elastic fracture
 mechanics.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Lenormand's corners: gas against viscous water in rigid grains.
 
     capfrac python examples/27_viscous_displacement.py

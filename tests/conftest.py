@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What all tests share: a clean YADE scene for each, a small settled sample in two sizes, scenes set by hand.
 
 YADE has one scene per process. Every test gets it empty, so no test sees what another one left; tests that need the

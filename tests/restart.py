@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Saving and loading the scene on the way, and the same moment in the run that is not interrupted."""
 
 from yade import O

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The settled sample that most tests begin with: kept as numbers, so that it is the same sample everywhere.
 
 Grains that settle are chaotic: another compiler or mathematical library rounds one digit otherwise, and another sample

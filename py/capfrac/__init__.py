@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """capfrac: when gas pushes into water-filled sediment, does it slip between the grains or push them apart?
 
 An extension of YADE. ``import capfrac`` in a YADE script or session adds the classes

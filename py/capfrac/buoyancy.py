@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """How high a column of gas has to be before it invades by its own buoyancy.
 
 Gas and water at rest have different weights, so the capillary pressure grows upwards in a connected column of gas,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Case files: everything an injection needs to know, one TOML file, every key with its unit.
 
 ``KEYS`` below is the one list of keys; the reader, the checks, the defaults and ``capfrac describe`` all come from it.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What does not fit together in a case: functions that take its sections and yield a text for each problem.
 
 Each asks only for what it compares: a key that was refused by itself ends the function that asks for it, not the others

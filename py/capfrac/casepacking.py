@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The packing that a case names: whether it can be meant as it is, and agrees with what else the case says.
 
 A file knows nothing of the case, so a unit that was forgotten shows only where the two are compared: radii of 0.94 (mm)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """From a case to a scene: its sample, its inlet, its engines."""
 
 import math

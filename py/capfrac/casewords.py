@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Which key of a case stands for which attribute of an engine or argument of a function; messages in those words."""
 
 import re

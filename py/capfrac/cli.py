@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The command ``capfrac``. Exit status: 0 done, 1 a problem (one sentence on stderr), 2 wrong usage, 130 interrupted.
 """
 

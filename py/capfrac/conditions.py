@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Conditions between keys, as the table of keys states them: ``"gas.trapping = true or water.flow = 'solved'"``.
 
 Terms are ``key = value``, ``key != value`` (TOML values), ``key`` (it is set: not empty, none, zero or false) and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What an injection did, level by level, as a picture: P_c against saturation, what opened, what moved."""
 
 import itertools

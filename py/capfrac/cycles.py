@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Cycles of the gas pressure: drainage, imbibition, drainage again; the loop of P_c and S_g, and the gas that stays.
 
 The engine does what a pressure does; this drives the pressure, level by level, each until the grains are at rest::

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Hydrate Ridge by depth, in theory: stresses, capillary threshold, fracture pressure, mode, and the gas column that it
 takes.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What of the environment capfrac's processes heed, and what not.
 
 Batch systems export ``OMP_NUM_THREADS`` and its kin to every program. A sample of some hundred grains is fastest on

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Snapshots as files for other programs: fields for ParaView, the network for OpenPNM.
 
 ::

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of snapshots, in the language of Figures 15 and 16 of Jain & Juanes (2008).
 
 Grains are disks, gas is blue, compression between grains is brown and tension green, with lines from centre to centre

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Put the engines of the gas into a scene that has a sample. Scripts find them in :mod:`capfrac.injection`."""
 
 import math

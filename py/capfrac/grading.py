@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Grain size distributions: from which the radii of a sample are drawn.
 
     from capfrac import grading, sediment

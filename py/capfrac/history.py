@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The course of an injection to the very end of a run, by pressure levels and in time, and its picture."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Run an injection: from a case to a run folder with numbers, pictures and fields.
 
 :func:`inject` does it all; :func:`startInjection` only puts the gas engine into a scene that has a sample, for scripts

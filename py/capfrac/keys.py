@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Keys of case files and of tests: one list of them says what may be given, in which unit, and what the defaults are.
 
 The reader, the checks and the help all come from that list. An unknown key, a value of the wrong kind or out of range

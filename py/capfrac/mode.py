@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Capillary invasion or fracture? The mode of an injection as numbers, and the rule that names it.
 
 The rule looks at one state of the sample, the breakthrough of the gas to the outlet, and compares it with the start. It

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The files that a case, a sweep or a test names: what counts is what is in them, not what they are called.
 
 A result belongs to the content of its files. The key of a run (:func:`capfrac.runfolder.caseKey`) is made of their

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Where grains come from, before there is a scene: random numbers, or a file of the user's own."""
 
 import math

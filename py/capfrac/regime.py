@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Capillary invasion or fracture, by theory and from tables of runs: pressures of both modes, and the grain size where
 they change.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Rigid networks: invasion percolation on lattices and triangulations of 1e5 pores and more, by the very code of the
 engines.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The folder of a run: what is in it, how it is kept usable at any moment, how a run is taken up again.
 
     summary.json          versions, parameters, seed, results, state of the run

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Whether there can be a sample as it is asked for, and whether what was made is one.
 
 Samples are made of unbonded disks, which flow where one principal stress is too many times the other (Mohr and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Make a sediment: draw grains, let them settle, bring the box to a stress state, bond the contacts.
 
 Each step works on YADE's current scene, so a script can stop between any two of them, look, and go on::

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """One moment of a sample as plain arrays: all that a picture or a field needs, without YADE.
 
 A snapshot is taken from YADE's scene, kept as a file, and drawn or exported later, on another machine if need be::

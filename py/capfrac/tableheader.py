@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The header of a table that people bring: which columns it names, in which units (see :mod:`capfrac.tables`)."""
 
 import csv

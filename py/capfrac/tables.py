@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Tables that people bring: text files with numbers in columns, whatever program wrote them.
 
     from capfrac.tables import Column, readTable

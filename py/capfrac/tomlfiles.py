@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """TOML: the files of cases, sweeps and tests as dicts, unchecked, and single values that replace what they say."""
 
 import re

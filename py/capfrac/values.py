@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Values as users give them: numbers that can be used, and how messages show what cannot."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Cost of a coupled step over a dry one: see scripts/benchmark."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes set by hand that several tests of the engines share."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What holds for every picture: texts lie apart and on the sheet, all lines have names, no panel is empty."""
 
 import itertools

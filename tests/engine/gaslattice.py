@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Snapshots set by hand: a square lattice of touching grains between walls, gas in chosen columns, grains moved as a
 test likes.
 

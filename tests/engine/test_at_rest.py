@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """When the grains count as at rest: by all forces that move them, weight included."""
 
 import pytest

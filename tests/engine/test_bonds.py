@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Bonds: strengths after Eq. 5, how they break, walls as mirrors. Tolerances as in test_contacts.py."""
 
 import pytest

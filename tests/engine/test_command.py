@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The command capfrac, as a person types it: its parts that are not an injection."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Contacts without bonds: stiffnesses, Eq. 1, friction, walls; values that are refused.
 
 Two grains (or one and a wall) are held or moved by hand and the contact's forces compared with the formula. What the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Documentation that users of a YADE session rely on: a unit for every quantity, a docstring for every public function.
 """
 

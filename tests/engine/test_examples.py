@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Every example runs, smaller, and gives the number that it promises."""
 
 import importlib.util

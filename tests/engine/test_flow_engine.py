@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """SinglePhaseFlowEngine in a scene: grains that it compresses, boundaries that change, what it saves, and what it
 refuses in the loop.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The diagnostics of fractures on synthetic ones, whose tips, branches and angles can be counted by hand: no
 simulation, no YADE.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """GasInvasionEngine on packings that stand still: which pores the gas enters, in which order, at which pressure.
 
 The oracle below is written on the lists that the engine reports of its initial state and on nothing else of it: no

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The supply of gas of GasInvasionEngine: equations of state, prescribed pressures, rates and reservoirs, and the mass
 of the gas.
 """

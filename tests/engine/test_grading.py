@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Grain size distributions: what is drawn follows them, and what is no distribution is refused by name."""
 
 import math

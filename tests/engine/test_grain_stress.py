@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Stress tensors of grains: their mean over the box is the stress on the walls, with and without fluids; smoothing and
 principal stresses.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Imbibition, snap-off and trapped gas in packings that stand still, against an oracle that is written on the grains
 alone.
 

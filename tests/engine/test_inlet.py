@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The gas inlet: some pores of a wall, a stretch of it, or pores that hold given points; its width is on record."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The servo-controlled box against a lattice whose stiffness is known, and against what it is asked to keep."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The contact law on two grains against Eqs. 1 and 2: capfrac.lab.contacts, and against formulas written out here.
 
 An overlap U_n is the difference of r1 + r2 and a distance. The second grain's place, the difference of the places, its

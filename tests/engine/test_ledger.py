@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Conservation on a sample that gas tears open: every litre of gas and water is booked, whatever the network goes
 through.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Grains that lost their contacts: they come to rest, unless something drives or holds them, and decide no measure."""
 
 import math

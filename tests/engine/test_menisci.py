@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """MeniscusCohesionEngine: forces against formulas written out here, their sum, energy over cycles, saving, errors.
 
 Two grains side by side; the cell below them holds gas, the one above water, at equal pressures, so that menisci make

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The mode of an injection on samples set by hand, whose ways, throats and areas can be counted (see gaslattice.py),
 and its agreement in all that a run leaves.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """PoreNetworkEngine: its forces are the gradient of sum p V, its volumes fill the box, its domains follow the contacts.
 
 The grains stand where a test puts them (all degrees of freedom blocked); the engine alone is run.

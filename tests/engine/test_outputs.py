@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Snapshots, pictures and exported fields, checked on nine grains set by hand: no simulation, no YADE.
 
 The grains stand on a square lattice and touch; each square between four of them is two triangular cells, each gap

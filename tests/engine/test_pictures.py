@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of runs of every kind: what is in them, and that they can be read (see :mod:`figurechecks`)."""
 
 from pathlib import Path

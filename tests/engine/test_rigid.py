@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """capfrac.rigid: networks given as arrays, drained by the engines' code, against a drainage written out here."""
 
 import heapq

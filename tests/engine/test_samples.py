@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What cannot be a sample is refused before any work, and what becomes none as soon as that shows."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Saving and loading: nothing is lost, and a run that is taken up again goes on as if it had not been interrupted.
 
 Everything is compared to the last bit, the run after loading, too. A tolerance would hide what a fracturing sample

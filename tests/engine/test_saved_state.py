@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What a save forgets: runs with every supply and option, saved and loaded on the way, against those that never were.
 
 Grains are driven along given paths, without contacts: no order of contacts and no chaos comes in, and all numbers must

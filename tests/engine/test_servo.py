@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """WallServoEngine: walls come to the requested stresses, the fixed ones stay, what cannot be reached is said."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """GasInvasionEngine with waterFlow = 'solved': amounts, agreement with drained water in the slow limit, supplies,
 restart, errors.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Engines in a place of the step where they would do something else than what is meant: a named error with the cure."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Sweep files: what is read, in which order, with which values; mistakes are refused by name."""
 
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Tables of sweeps and what is made from them: r*, second opinions, figures. The tables here are written by hand."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Tables that people bring: all ways of writing the same numbers give the same bits; what is not plain is refused."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Small runs that together use every option of the fluid engines, and the tables of numbers they leave.
 
 ``STILL``: the grains do not move, so a result is a matter of the model alone. ``MOVING``: 300 steps with the grains

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Case files with mistakes: refused by the key's name with the value and what is allowed, before anything is done."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes that the engines cannot follow: each is refused with the culprit and its value, and left exactly as it was."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A packing that contradicts its case is refused, with what was meant; what is only odd is told and kept."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """All that is wrong with a case is said at once; keys without effect are not passed over.
 
 What a case needs depends on what drives it.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Errors of the command speak of the keys of a case, not of attributes of engines; and inlets as a case states them."""
 
 import math

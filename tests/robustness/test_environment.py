@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Neither the environment nor the files beside a script decide what capfrac computes, or whether it runs."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Whatever runs the points of a sweep: executors of this machine, of a cluster, some that fail, none to be shut down.
 """
 

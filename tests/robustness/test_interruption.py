@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The command, interrupted and killed: the run folder stays usable, the same command ends the run as if nothing had
 been.
 """

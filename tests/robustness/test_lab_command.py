@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """`capfrac lab`: what is refused, and a test that is interrupted and taken up again."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Laboratory tests that are interrupted: stages, checkpoints and results of LabRun, and folders that cannot be used.
 
 A test here is four grains that jostle in a box, 400 steps in chunks of 50, the height of the top one written down after

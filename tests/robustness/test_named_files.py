@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A result belongs to what is in the files that a case, a test or a sweep names, not to their names."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Names of files and results that are made of numbers: what differs has different names, and nothing is overwritten."""
 
 import numpy as np

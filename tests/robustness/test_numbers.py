@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Numbers that no one means: far too large, infinite, true or false.
 
 Refused by name wherever they may be given, before any work.

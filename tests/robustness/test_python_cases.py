@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Cases from Python: nothing that is handed in is changed, parts of cases are refused with all that they lack."""
 
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Run folders: what cannot be used is refused as it is, and nothing half-written is left."""
 
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The scripts around capfrac: stopped in the middle, and an installation that serves other users."""
 
 import fcntl

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Sweeps that are interrupted, killed, or have points that fail: the same command goes on and ends with the same table.
 """
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What is odd but possible is told as a run begins, printed with its result, and kept in summary and table."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Runs that test_rate.py and the figure of the manual share: the sample of figure16_small under a ramp, and under
 rates.
 

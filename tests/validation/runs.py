@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Runs that the validation tests share: cases of capfrac, run side by side into folders that are kept.
 
 A run of the same parameters that is there already is not made again, so an interrupted validation goes on where it

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pressure cycles of the coarse sample over five seeds (long: see `--validation`): a loop, trapped gas, an easier
 second drainage.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The paper's two invasions, Figures 15 and 16 of Jain & Juanes (2008), over ten seeds (long: see `--validation`).
 
 A sample of 300 grains is an anecdote, so what is asserted of pressures is asserted of the median of ten. The bounds for

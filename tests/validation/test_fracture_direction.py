@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Figure 14 of Jain & Juanes (2008): branched fractures in all directions under equal stresses, upright ones under a
 larger vertical stress (long: see `--validation`).
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What decides at which pressure a fine, cohesive sediment opens: the width of the inlet and the stiffness (long).
 
 A bond of strength sigma_c = chi gamma/r at the tip of a gas-filled flaw of half-length a breaks at

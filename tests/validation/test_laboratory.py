@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The numbers of the sediment laboratory and of single-phase flow at full size (long: see `--validation`)."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Gas at a rate in the paper's two samples: what the ramp gave, and what the step of time has to do with it (long)."""
 
 import numpy as np

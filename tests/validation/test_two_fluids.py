@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Solved water and compressible gas at full size (long: see `--validation`)."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes that several verifications of the gas engine share."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Gas and water with weights: exact thresholds in a chain of pores, forces at rest, stable and unstable fronts, and the
 critical column.
 """

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """SinglePhaseFlowEngine among grains set by hand against closed forms; the conductances are written out here once more.
 """
 

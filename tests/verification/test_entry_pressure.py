@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Entry pressures that GasInvasionEngine.throats() reports, against Eq. 15 of Jain & Juanes (2008) as corrected.
 
 The engine is one of several places where a factor of two could hide (radius or diameter, mean radius, gap of a wall or

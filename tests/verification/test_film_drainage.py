@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Trapped water that leaves by films: linear in time, q = K (P_c - P_e), pore after pore."""
 
 import math

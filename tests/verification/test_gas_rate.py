@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Gas at a rate into a rigid, sealed pack of known volumes, against closed forms.
 
 Between two entries the volume of the gas is constant, so p(t) + p_0 = (M_0 + q t) Z R T/(M V) with V the volumes of the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What is read from the curves of the laboratory, on curves that are known in closed form."""
 
 import math

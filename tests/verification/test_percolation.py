@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Invasion percolation in rigid networks against the fractal dimensions of the literature: capfrac.lab.percolation.
 
 Small networks here; 1e5 pores and more are in tests/validation.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Grains and water that move together against linear poroelasticity: Biot, Skempton, Terzaghi, Mandel."""
 
 import math

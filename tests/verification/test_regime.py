@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Theory of the change of mode, fits of it, and Hydrate Ridge by depth, against numbers worked out by hand."""
 
 import math

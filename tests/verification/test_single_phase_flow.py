@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """SinglePhaseFlowEngine against closed forms and conservation laws, on settled grains that stand still or move."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Gas and water that are solved for, with weights: rest, forces, columns, and the slow limit, which is that of drained
 water.
 """

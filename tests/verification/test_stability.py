@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Long runs with real water, shortened (the full ones: `--validation`), and what the coupling may not do."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The fracture test against two independent answers: the linear lattice, and linear elastic fracture mechanics."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The fracture that an injection made: where it is, where it goes, how it branches, and the stress around it.
 
     from capfrac import fracture, snapshot

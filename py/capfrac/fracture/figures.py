@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of a fracture: opened throats, tips and directions; the stress around it; several samples side by side."""
 
 import math

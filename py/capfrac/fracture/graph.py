@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The fracture as a graph: which throats have opened, where its tips are, how it branches.
 
 Nodes are cells that hold gas. Two of them hang together where the throat between them is *cracked* (its bond broken, or

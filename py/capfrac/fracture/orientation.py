@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Directions of fractures: axial data, in which theta and theta + 180 degrees are the same.
 
 Angles are doubled, which makes directions of them, averaged as unit vectors and halved again (Mardia & Jupp 2000,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """How gas came through a sediment: on which way, past which throats, and whose room it stands in.
 
 The gas of a snapshot is a graph. Its nodes are cells (not pores: a throat that opens joins the pores on its sides), its

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What the fracture of an injection looks like in numbers, from the snapshots and the log of a run.
 
 :func:`measureFracture` measures one snapshot, :func:`tipAdvance` follows the tips through the events, :func:`reportRun`

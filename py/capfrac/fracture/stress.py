@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Stress carried by the grains: of each grain, as a smooth field, and its mean over the box.
 
 The tensor of a grain is that of Love and Weber, sigma_ab V = sum_c f_a (c_b - x_b) over its contacts, with f the force

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Throats and cells of a snapshot as numbers: gaps, what has opened since the start, centres."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The sediment laboratory: make a sediment, compress it, know its macroscopic properties.
 
     parameters    what may be given to the tests, with units and defaults

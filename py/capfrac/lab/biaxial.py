@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Biaxial tests: from contacts to Young's modulus, Poisson's ratio, friction angle and cohesion.
 
 A sample is brought to an isotropic stress, bonded where asked for, and compressed vertically while the side walls keep

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The servo-controlled box: a sample between four walls that are pressed, driven or held.
 
 Stresses and strains are positive in compression; strains are engineering strains from the lengths at

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """``capfrac lab TEST``: the laboratory tests from the command line, each with a run folder, progress and pictures."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Dry uniaxial compaction with unload-reload loops, and the stiffness that gives a requested compressibility (Figure
 10).
 

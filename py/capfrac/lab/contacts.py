@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Two grains along prescribed paths: the contact law of the engines against Eqs. 1 and 2 of Jain & Juanes (2008).
 
     F_n = k_n U_n,   dF_s = -k_s dU_s,   |F_s| <= mu F_n without a bond (Eqs. 1 and 2)

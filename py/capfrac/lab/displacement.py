@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Viscous displacement in rigid grains: Lenormand's corners.
 
 A sample whose grains are fixed is filled with water; gas (any fluid that does not wet) enters along the whole floor at

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of laboratory tests: Figures 7 to 10 of Jain & Juanes (2008), Mohr circles, tables as curves.
 
 Each function draws the result of a test (see the modules beside this one) to a file (.png, .pdf or .svg).

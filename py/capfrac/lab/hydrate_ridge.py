@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Hydrate Ridge: the model's compaction against what is reported of the sediment (Figure 10).
 
 Reported (Tan, Germaine & Flemings 2006, Proc. ODP Sci. Results 204, doi:10.2973/odp.proc.sr.204.102.2006, abstract;

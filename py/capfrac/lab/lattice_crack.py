@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A crack in a square lattice of bonded grains as a system of linear equations: what the bond at its tip bears.
 
 Grains of radius r on squares of side 2r, contacts of stiffness k_n and k_s, grains that turn. The elastic constants of

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What may be given to the laboratory tests: keys with units and defaults, for `capfrac lab` and for files.
 
 Every test knows the section ``grains`` and a section of its own. From a script the tests take a

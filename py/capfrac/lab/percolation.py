@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Invasion percolation in rigid networks: fractal dimension and saturation of the gas, with and without trapping.
 
 Gas that goes slowly through rigid grains makes clusters whose mass grows like a power of their size, M ~ L^D. In two

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of invasion percolation in rigid networks."""
 
 import numpy as np

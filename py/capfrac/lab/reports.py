@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What the tests without water leave in their run folders: tables, pictures, and the results for the summary.
 
 Each function takes the sample, the test's own parameters, its :class:`~capfrac.lab.run.LabRun` and the folder where

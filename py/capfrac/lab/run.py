@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A laboratory test as a sequence of stages that can be interrupted and taken up again.
 
 A test asks its :class:`LabRun` before every stage::

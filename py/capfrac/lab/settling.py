@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Sedimentation and its time step: Figures 7, 8 and 9 of Jain & Juanes (2008).
 
 Grains fall from random places and come to rest. The time step is that of YADE's GlobalStiffnessTimeStepper, as in the

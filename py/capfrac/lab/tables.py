@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Macroscopic properties against microscopic parameters: does grain size matter, and which parameter does what.
 
 With strengths by Eq. 5 and constant stiffnesses the model has no length but the grain's: stresses over k_n and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Fracture toughness: the gas pressure at which a crack of known length begins to grow, against linear elastic fracture
 mechanics (LEFM).
 

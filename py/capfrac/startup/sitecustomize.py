@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Python begins with this under ``capfrac python`` and ``capfrac yade``.
 
 The folders of the user's PYTHONPATH, then that of the user's script (the working folder without one), are searched for

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """``capfrac sweep``: sweeps from the command line."""
 
 import sys

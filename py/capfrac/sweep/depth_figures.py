@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Hydrate Ridge by depth: the runs of the sweep ``hydrate_ridge_depth`` in front of the theory, and the table with
 both.
 """

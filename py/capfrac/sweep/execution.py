@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Run the points of a sweep, several at a time, each in a process of its own.
 
 :func:`runPoint` is all that happens to one point; it takes and returns plain data, so anything with the ``submit`` of

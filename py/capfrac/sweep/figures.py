@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Figures of sweeps, by the name that a sweep file gives; drawn from the table alone."""
 
 from pathlib import Path

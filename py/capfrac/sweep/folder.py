@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The folder of a sweep, usable at any moment:
 
     table.csv        every point of the sweep: parameters, mode, pressures, cost, or why it failed

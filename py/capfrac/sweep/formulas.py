@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Formulas of sweep files: arithmetic on named numbers, and nothing else.
 
 ``"0.5 * min(rigid, stress.horizontal)"``: numbers, names (with dots: keys of a case), ``+ - * / **``, brackets, and the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The points of a sweep: their order, and the case of each."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Figures of the regime map, drawn from the table of its sweep alone."""
 
 import numpy as np

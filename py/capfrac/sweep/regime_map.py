@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The regime map from the table of its sweep: grain size of the change of mode, against stress and cohesion.
 
 Everything here is computed from a table (:mod:`capfrac.sweep.table`), never from the runs themselves.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Carry out a sweep: :func:`runSweep`."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Sweep files: which injections a sweep is made of, and in which order.
 
 A TOML file with a base case and lists of values::

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The table of a sweep: one line a point, a CSV with units in its header."""
 
 import csv

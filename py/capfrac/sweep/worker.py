@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """One point of a sweep in a process of its own: what :mod:`capfrac.sweep.execution` starts.
 
 The process dies with the one that started it, so a sweep that is killed leaves nothing behind that would still write to

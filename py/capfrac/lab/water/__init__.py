@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Laboratory tests of a fluid between the grains, by ``SinglePhaseFlowEngine``.
 
     diffusion      permeability, storage and diffusion of pressure (Table 1, Figures 11, 12); its runs are in

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Water between grains that are set by hand, run by `SinglePhaseFlowEngine` itself, against formulas in closed form.
 
 All throats have the conductance of Eqs. 8 and 9 of Jain & Juanes (2008), G = C/L, with the constant shape factor 0.026,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Consolidation of a water-filled sample in one and in two dimensions, against Terzaghi's and Mandel's solutions.
 
 A bonded sample under an isotropic stress is loaded suddenly by a small additional stress on its roof. *Terzaghi*: fixed

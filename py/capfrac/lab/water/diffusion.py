@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """One-dimensional flow through a sample: permeability, storage and the diffusion of pressure (Table 1, Figures 11 and
 12).
 

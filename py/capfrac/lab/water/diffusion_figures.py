@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of single-phase flow: Figures 11 and 12 of Jain & Juanes (2008), schemes in time, closed forms.
 
 Each function draws the result of a test (:mod:`capfrac.lab.water.diffusion`, :mod:`capfrac.lab.water.closedforms`) to a

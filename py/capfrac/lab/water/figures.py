@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of laboratory tests on grains and water that move together: Figure 13, consolidation, stability."""
 
 import numpy as np

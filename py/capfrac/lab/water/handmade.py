@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Fixed grains that are set by hand, and `SinglePhaseFlowEngine` alone among them.
 
 Disks are lists of (x, y, radius) [m], boxes are (left, right, bottom, top) [m]. Walls mirror: a grain whose centre is

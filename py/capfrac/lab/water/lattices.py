@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Lattices of equal grains with water between them: permeability, and a pressure that spreads into a long one.
 
 With the spacing a, the conductance C of Eq. 9 and G = C/L for the distance L of two pores,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Closed forms of linear poroelasticity in the plane: Terzaghi's and Mandel's consolidation of an orthotropic material.
 
 Stresses, strains and pressures are positive in compression; x is horizontal, y vertical:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Eqs. 20 to 22 of Jain & Juanes (2008) and how far pores, layers and flows are from them.
 
 Places xi are over H, from the end at pressure 0, pressures over Delta p, times tau over T_c, flows over the steady one.

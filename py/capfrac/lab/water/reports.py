@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What the tests of water leave in their run folders: see :mod:`capfrac.lab.reports`."""
 
 from capfrac.lab.water import closedforms, consolidation, diffusion, diffusion_figures, figures, stability, undrained

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Steps of time in the diffusion of pressure: order of convergence of the implicit scheme, and the explicit one beside
 it.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Long runs of grains and water together: does energy stay bounded, does water stay?
 
 *shake*: grains on springs that nothing damps, in a sealed rigid box, begin with random velocities. The time step is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The runs of the diffusion test on the sample in the scene: its steady flow, and the diffusion in steps of time.
 
 The engine is alone, so the grains stand still. ``fluid`` stands for the attributes of `SinglePhaseFlowEngine`, with

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Undrained uniaxial compaction of a sealed, water-filled sample (Figure 13): Biot's and Skempton's coefficients.
 
 The sample is brought to an isotropic stress with its water drained, bonded where asked for, sealed, and compressed

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The same problem stated in other units gives the same dimensionless curves, moving grains included.
 
 A program that hides a length, a time or a mass (a tolerance in metres, a thickness of "1") gives other curves when
