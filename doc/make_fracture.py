@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 
 from capfrac import fracture, snapshot
-from capfrac.fracture import figures
-from capfrac.lab.toughness import drawToughness
+from capfrac.plot import fracture as figures
+from capfrac.verification.toughness import drawToughness
 
 HERE = Path(__file__).parent
 

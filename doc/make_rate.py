@@ -14,7 +14,7 @@ sys.path.insert(0, str(HERE.parent / "tests" / "validation"))
 
 from rate import LARGE, NUDGED, RUNS, SMALL, one, table  # noqa: E402
 
-from capfrac.figures import COLOURS, newFigure, saveFigure  # noqa: E402
+from capfrac.plot.figures import COLOURS, newFigure, saveFigure  # noqa: E402
 
 STYLES = {
     "ramp": ("prescribed: a ramp of 1 kPa steps", "0.45", "-"),

@@ -15,11 +15,11 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab import tables
+from capfrac.lab import properties
 
 
 def main(folder=None, grainCount=300, radii=(1e-2 / 2**13, 1e-2), stresses=(20e3, 50e3, 100e3), strain=0.08):
-    found = tables.sizes(
+    found = properties.sizes(
         sediment.Sediment(grainCount=grainCount, rMin=1e-3, seed=1), radii, stresses, strain, bondStrength=100e3
     )
     for name, share in found["spread"].items():

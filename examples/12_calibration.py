@@ -14,11 +14,11 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab import tables
+from capfrac.lab import properties
 
 
 def main(folder=None, grainCount=300, stresses=(20e3, 50e3, 100e3), strain=0.08):
-    found = tables.sensitivity(
+    found = properties.sensitivity(
         sediment.Sediment(grainCount=grainCount, rMin=1e-3, seed=1), 2.0, stresses, strain, bondStrength=100e3
     )
     for parameter, exponents in found["exponent"].items():

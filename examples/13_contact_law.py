@@ -13,7 +13,7 @@ import capfrac
 
 capfrac.load_engines()
 
-from capfrac.lab import contacts
+from capfrac.verification import contacts
 
 
 def main(folder=None):

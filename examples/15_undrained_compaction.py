@@ -15,7 +15,8 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab.water import figures, undrained
+from capfrac.lab import undrained
+from capfrac.verification import figures
 
 
 def main(folder=None, grainCount=100, bulkModuli=(1e7, 2.2e9), strain=0.01):

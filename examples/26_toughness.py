@@ -17,7 +17,7 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab import toughness
+from capfrac.verification import toughness
 
 
 def main(folder=".", grainCount=300, columns=24, brokenContacts=(1, 3, 5), halfLengths=(3.0, 4.5, 7.0), seeds=1):

@@ -5,7 +5,6 @@ YADE has one scene per process. Every test gets it empty, so no test sees what a
 command itself start it as a process of its own (tests/robustness).
 """
 
-import os
 import signal
 import subprocess
 from pathlib import Path

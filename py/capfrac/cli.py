@@ -103,12 +103,12 @@ class _Progress:
 
 
 def _inject(arguments):
-    from capfrac import mode
-    from capfrac.case import readCase
+    from capfrac.case.read import readCase
+    from capfrac.results import mode
 
     case = readCase(arguments.case, arguments.set)
     folder = arguments.output or os.path.join("runs", f"{case['case']['name']}-seed{case['grains']['seed']}")
-    from capfrac.injection import inject
+    from capfrac.run.injection import inject
 
     progress = _Progress(case, arguments.quiet)
     try:
@@ -130,7 +130,7 @@ def _inject(arguments):
 
 
 def _cases():
-    from capfrac.case import readCase, shippedCases
+    from capfrac.case.read import readCase, shippedCases
 
     for name in shippedCases():
         print(f"{name}: {readCase(name)['case']['title']}")
@@ -194,7 +194,7 @@ def main(argv=None):
         if arguments.command == "cases":
             return _cases()
         if arguments.command == "describe":
-            from capfrac.case import describeKeys
+            from capfrac.case.read import describeKeys
 
             print(describeKeys())
             return 0

@@ -10,7 +10,7 @@ moves.
 
 import numpy as np
 
-from capfrac.snapshot import GAS, Snapshot
+from capfrac.results.snapshot import GAS, Snapshot
 
 COLUMNS, ROWS = 12, 12
 #: Void of a column of pores [m^2]: its area less that of ROWS grains.

@@ -124,7 +124,7 @@ def test_pressureDiffusion(tmp_path):
 
 
 def test_closedForms(tmp_path, monkeypatch):
-    monkeypatch.setattr("capfrac.lab.water.units.STEPS", 200)
+    monkeypatch.setattr("capfrac.verification.units.STEPS", 200)
     results = example("18_closed_forms").main(str(tmp_path / "run"), grainCount=20)
     assert max(results["network"].values()) < 1e-12
     assert results["twoPores"]["implicit"]["orders"][-1] == pytest.approx(1, abs=0.01) and results["pulse"]["orders"][

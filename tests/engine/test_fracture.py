@@ -15,8 +15,9 @@ import pytest
 
 from capfrac import fracture, snapshot
 from capfrac.errors import CapfracError, CaseError, RunFolderError
-from capfrac.fracture import figures, orientation, report, throats
-from capfrac.runfolder import RunFolder
+from capfrac.plot import fracture as figures
+from capfrac.results.fracture import orientation, report, throats
+from capfrac.run.folder import RunFolder
 
 N = 31  # cells along a side; the inlet is in the middle
 MIDDLE = N // 2

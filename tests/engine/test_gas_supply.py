@@ -197,7 +197,7 @@ def test_tableFollowsToo(rigid):
 
 
 def test_endOfTheTableIsNamed(rigid):
-    gas = rigid(
+    rigid(
         "settled",
         gasPressure=10,
         gasControl="rate",

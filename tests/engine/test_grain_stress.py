@@ -12,7 +12,8 @@ from yade.wrapper import PoreNetworkEngine
 
 from capfrac import fracture, injection, sediment, snapshot
 from capfrac.errors import CaseError
-from capfrac.fracture import figures, stress
+from capfrac.plot import fracture as figures
+from capfrac.results.fracture import stress
 
 
 def tolerance(shot):

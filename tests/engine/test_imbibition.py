@@ -14,7 +14,7 @@ import pytest
 from scipy.optimize import brentq, fsolve
 from yade import O
 
-from capfrac import cycles, sediment
+from capfrac import cycles
 
 GAMMA = 0.05
 
@@ -285,7 +285,7 @@ def test_refusedAssignmentsChangeNothing():
 
 
 def test_waterNeedsAWayOut(handScene):
-    from yade.wrapper import ForceResetter, GasInvasionEngine
+    from yade.wrapper import GasInvasionEngine
 
     handScene([(1e-3, 1e-3, 1e-3)], (0, 2.2e-3, 0, 2.2e-3))
     with pytest.raises(

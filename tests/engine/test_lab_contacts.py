@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The contact law on two grains against Eqs. 1 and 2: capfrac.lab.contacts, and against formulas written out here.
+"""The contact law on two grains against Eqs. 1 and 2: capfrac.verification.contacts, and against formulas written out
+here.
 
 An overlap U_n is the difference of r1 + r2 and a distance. The second grain's place, the difference of the places, its
 square and root, and r1 + r2 are rounded by half an epsilon of r1 + r2 each at most: together less than 3 epsilon (r1 +
@@ -16,8 +17,8 @@ from yade import O
 
 from capfrac import sediment
 from capfrac.errors import CaseError, SceneError
-from capfrac.lab import contacts
 from capfrac.lab.run import LabRun
+from capfrac.verification import contacts
 
 EPSILON = sys.float_info.epsilon
 R1, R2 = 1e-3, 1.7e-3

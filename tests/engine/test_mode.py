@@ -14,7 +14,7 @@ from gaslattice import COLUMN_VOID, COLUMNS, ROWS, grain, lattice, opened
 
 from capfrac import mode, snapshot
 from capfrac.errors import CaseError, RunFolderError
-from capfrac.fracture import passage, throats
+from capfrac.results.fracture import passage, throats
 
 START = lattice()
 #: A column of pores in the middle, and a broad body of gas around it.
@@ -375,7 +375,7 @@ def run(request, tmp_path_factory):
     """Name, run folder and summary of a run."""
     from yade import O
 
-    from capfrac.injection import inject
+    from capfrac.run.injection import inject
 
     O.reset()
     folder = tmp_path_factory.mktemp("runs") / request.param

@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgba
 
 from capfrac import curve, cycles, figures, fracture, history
 from capfrac.errors import CaseError
-from capfrac.fracture import figures as fractures
+from capfrac.plot import fracture as fractures
 from capfrac.sweep import depth_figures, regime_figures, regime_map
 from figurechecks import Drawn, check
 from test_fracture import EAST, NORTH, START, arm, board, cracks

@@ -5,9 +5,10 @@ import numpy as np
 import pytest
 from yade import O
 
-from capfrac import case, packing, samplechecks, sediment
+from capfrac import case, packing, sediment
 from capfrac.errors import CaseError, SampleError, SceneError
-from capfrac.samplechecks import Flow, forceNetwork
+from capfrac.scene import samplechecks
+from capfrac.scene.samplechecks import Flow, forceNetwork
 
 R = 1e-3
 GOOD = {

@@ -9,7 +9,7 @@ import pytest
 
 from capfrac import packing
 from capfrac.errors import CaseError
-from capfrac.tables import Column, readTable
+from capfrac.io.tables import Column, readTable
 
 #: Three grains: x, y, r [m], as texts of as many digits as a double holds.
 GRAINS = [

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from yade import O
 
-from capfrac import case, injection, packing
+from capfrac import case, injection
 from capfrac.errors import CaseError
 
 GOOD = {

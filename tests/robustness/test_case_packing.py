@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from capfrac import casepacking, injection, packing
-from capfrac.case import resolveCase
+from capfrac import injection, packing
+from capfrac.case import packing as casepacking, resolveCase
 from capfrac.errors import CaseError
 from capfrac.sweep import readSweep
 from processes import run

@@ -9,7 +9,8 @@ import re
 
 import pytest
 
-from capfrac import case, conditions, keys
+from capfrac import case
+from capfrac.case import conditions, schema
 from capfrac.errors import CaseError
 
 GOOD = {
@@ -313,7 +314,7 @@ def test_conditionsNameKeysAndTheirChoices():
                     assert relation in ("set", "no") or known[path].checked(value) == value, text
         assert not (key.needs and key.usedWith)
         if key.demanded:
-            assert key.default is None and "needed " in keys.describe([key])
+            assert key.default is None and "needed " in schema.describe([key])
 
 
 @pytest.mark.parametrize("name", case.shippedCases())

@@ -8,9 +8,9 @@ import pytest
 from yade import O
 from yade.wrapper import GasInvasionEngine
 
-from capfrac import casescene, casewords, injection, sediment
-from capfrac.case import KEYS, resolveCase
-from capfrac.casewords import inCaseWords
+from capfrac import casescene, injection, sediment
+from capfrac.case import KEYS, resolveCase, words
+from capfrac.case.words import inCaseWords
 from capfrac.errors import CaseError, SampleError
 
 GOOD = {
@@ -33,18 +33,14 @@ def changed(**entries):
 
 
 def test_tablesNameWhatThereIs():
-    assert set(casewords.KEYS.values()) <= {key.path for key in KEYS}
-    assert set(casewords.GAS) <= set(GasInvasionEngine().dict())
-    assert set(casewords.SEDIMENT) <= {field for field in sediment.Sediment.__dataclass_fields__}
+    assert set(words.KEYS.values()) <= {key.path for key in KEYS}
+    assert set(words.GAS) <= set(GasInvasionEngine().dict())
+    assert set(words.SEDIMENT) <= {field for field in sediment.Sediment.__dataclass_fields__}
 
 
 @pytest.mark.parametrize(
     "name",
-    [
-        name
-        for name, value in GasInvasionEngine().dict().items()
-        if name in casewords.KEYS and not isinstance(value, bool)
-    ],
+    [name for name, value in GasInvasionEngine().dict().items() if name in words.KEYS and not isinstance(value, bool)],
 )
 def test_whatTheEngineRefusesIsNamedByItsKey(name):
     """Every attribute that a key of a case stands for, with a value that no case could have."""
@@ -58,7 +54,7 @@ def test_whatTheEngineRefusesIsNamedByItsKey(name):
     with pytest.raises(ValueError) as problem:
         setattr(engine, name, wrong)
     text = inCaseWords(str(problem.value))
-    assert casewords.KEYS[name] in text and not re.search(rf"(?<![\w.]){name}\b", text)
+    assert words.KEYS[name] in text and not re.search(rf"(?<![\w.]){name}\b", text)
 
 
 @pytest.mark.parametrize(

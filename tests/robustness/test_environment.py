@@ -14,8 +14,8 @@ from yade.wrapper import InsertionSortCollider
 import capfrac
 from capfrac import environment, snapshot
 from capfrac.errors import CapfracError
+from capfrac.run.folder import readSummary
 from capfrac.sweep import readSweep, runSweep
-from capfrac.runfolder import readSummary
 from processes import run
 
 #: A run of a second: 30 grains up to the breakthrough.

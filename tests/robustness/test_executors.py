@@ -14,8 +14,8 @@ import pytest
 
 from capfrac import environment
 from capfrac.errors import CapfracError, CaseError
+from capfrac.run.folder import readSummary
 from capfrac.sweep import execution, readSweep, runSweep
-from capfrac.runfolder import readSummary
 from processes import waitFor
 
 #: Points of a second each: 30 grains, one level.

@@ -11,7 +11,7 @@ import time
 import pytest
 
 from capfrac.case import readCase
-from capfrac.runfolder import RunFolder
+from capfrac.run.folder import RunFolder
 from processes import run, waitFor
 
 #: A run of some seconds: 40 grains, twenty levels of 300 steps or more, no pictures but those at the start and the end.

@@ -6,13 +6,13 @@ import re
 
 import pytest
 
-from capfrac import injection, namedfiles
+from capfrac import injection
 from capfrac.case import resolveCase
 from capfrac.errors import CaseError, RunFolderError
-from capfrac.lab import command as lab
-from capfrac.lab import parameters
+from capfrac.io import namedfiles
+from capfrac.lab import command as lab, parameters
 from capfrac.lab.run import LabRun
-from capfrac.runfolder import RunFolder, caseKey, difference
+from capfrac.run.folder import RunFolder, caseKey, difference
 from capfrac.sweep import readSweep, runSweep
 from processes import run, writePacking
 

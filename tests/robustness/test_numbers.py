@@ -14,7 +14,7 @@ from yade import O
 from capfrac import case, grading, injection, packing, sediment
 from capfrac.cli import main
 from capfrac.errors import CaseError
-from capfrac.keys import LARGEST_INT
+from capfrac.values import LARGEST_INT
 
 GOOD = {
     "grains": {"rMin": 1e-3},

@@ -9,7 +9,7 @@ from yade import O
 from capfrac import injection
 from capfrac.case import resolveCase
 from capfrac.errors import RunFolderError, SceneError
-from capfrac.runfolder import RunFolder
+from capfrac.run.folder import RunFolder
 
 
 def caseOf(**grains):

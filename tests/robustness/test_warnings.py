@@ -8,7 +8,7 @@ import pytest
 
 from capfrac import injection
 from capfrac.case import resolveCase
-from capfrac.runfolder import RunFolder
+from capfrac.run.folder import RunFolder
 from capfrac.sweep import readSweep, runSweep
 from processes import run, writePacking
 
@@ -142,7 +142,7 @@ def test_warningsAreKeptOnce(tmp_path):
 def test_pressuresOfSnapshotsMakeAnotherRun(caseOf):
     # The ramp stops at each, so the levels after it are others. Twice the same, or in another order, they do not.
     def key(pressures):
-        from capfrac.runfolder import caseKey
+        from capfrac.run.folder import caseKey
 
         return caseKey(caseOf(output={"pressures": pressures}), {})
 

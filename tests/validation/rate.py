@@ -48,7 +48,7 @@ COARSE = {
 
 def sampleOf(name, case):
     """Path of the saved sample of a resolved case of that name."""
-    from capfrac.casescene import makeSample
+    from capfrac.case.build import makeSample
 
     path = keptAs(name, case, "yade.gz")
     if not path.exists():
@@ -61,7 +61,7 @@ def sampleOf(name, case):
 
 def keptAs(name, case, suffix):
     """Path of what is kept of a resolved case: a case that changed since has another."""
-    from capfrac.runfolder import caseKey
+    from capfrac.run.folder import caseKey
 
     return PLACE / f"{name}-seed{case['grains']['seed']}-{caseKey(case, {})}.{suffix}"
 

@@ -4,8 +4,8 @@
 import pytest
 
 from capfrac.case import readCase
-from capfrac.injection import inject
 from capfrac.lab import command, parameters
+from capfrac.run.injection import inject
 from runs import FOLDER
 
 pytestmark = pytest.mark.validation

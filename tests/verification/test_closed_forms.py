@@ -9,8 +9,8 @@ import pytest
 from yade import O
 
 from capfrac.errors import CaseError
-from capfrac.lab.water import closedforms, handmade, lattices, units
-from capfrac.sediment import Sediment
+from capfrac.scene.sediment import Sediment
+from capfrac.verification import closedforms, handmade, lattices, units
 
 MU, KF, DP = 1e-3, 1e7, 1e3
 NAN = float("nan")

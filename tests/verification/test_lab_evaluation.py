@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, hydrate_ridge, settling, tables
+from capfrac.lab import biaxial, compaction, hydrate_ridge, properties, settling
 from capfrac.lab.box import COLUMNS
 
 
@@ -107,7 +107,7 @@ def test_powerLawAndItsError():
 
 
 def test_spread():
-    assert tables.spread([1.0, 1.1, 0.9]) == pytest.approx(0.2)
+    assert properties.spread([1.0, 1.1, 0.9]) == pytest.approx(0.2)
 
 
 class TestHydrateRidge:

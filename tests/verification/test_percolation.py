@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Invasion percolation in rigid networks against the fractal dimensions of the literature: capfrac.lab.percolation.
+"""Invasion percolation in rigid networks against the fractal dimensions of the literature:
+capfrac.verification.percolation.
 
 Small networks here; 1e5 pores and more are in tests/validation.
 """
@@ -9,8 +10,8 @@ import pytest
 
 from capfrac import rigid
 from capfrac.errors import CaseError
-from capfrac.lab import percolation, percolation_figures
 from capfrac.lab.run import LabRun
+from capfrac.verification import percolation, percolation_figures
 
 
 @pytest.fixture(scope="module")

@@ -8,10 +8,10 @@ import pytest
 from scipy.integrate import trapezoid
 
 from capfrac.errors import CaseError
-from capfrac.lab.water import poroelasticity as theory
-from capfrac.lab.water import undrained as laboratory
-from capfrac.lab.water.consolidation import consolidation
-from capfrac.sediment import Sediment
+from capfrac.lab import undrained as laboratory
+from capfrac.scene.sediment import Sediment
+from capfrac.theory import poroelasticity as theory
+from capfrac.verification.consolidation import consolidation
 
 SAMPLE = {"rMin": 1e-2, "shearStiffness": 4e6, "seed": 1}
 

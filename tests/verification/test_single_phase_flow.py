@@ -10,8 +10,7 @@ from yade.wrapper import SinglePhaseFlowEngine
 
 from capfrac import sediment
 from capfrac.errors import CaseError
-from capfrac.lab.water import diffusion as laboratory
-from capfrac.lab.water import profiles
+from capfrac.lab import diffusion as laboratory, profiles
 from capfrac.lab.box import Box
 
 NAN = float("nan")

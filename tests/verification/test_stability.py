@@ -8,8 +8,8 @@ import pytest
 from yade import O
 from yade.wrapper import SinglePhaseFlowEngine
 
-from capfrac.lab.water import stability
-from capfrac.sediment import Sediment
+from capfrac.scene.sediment import Sediment
+from capfrac.verification import stability
 
 SAMPLE = Sediment(grainCount=40, rMin=1e-2, shearStiffness=4e6, seed=1)
 

@@ -10,9 +10,10 @@ from yade import O
 
 from capfrac import sediment
 from capfrac.errors import CaseError, SampleError
-from capfrac.lab import lattice_crack, toughness
-from capfrac.lab.lattice_crack import finiteWidth, tipForces
-from capfrac.lab.water.handmade import squareLattice
+from capfrac.theory import lattice_crack
+from capfrac.theory.lattice_crack import finiteWidth, tipForces
+from capfrac.verification import toughness
+from capfrac.verification.handmade import squareLattice
 
 STRENGTH, STRESS = 100e3, 3e3
 

@@ -12,12 +12,12 @@ import math
 
 import numpy as np
 
-from capfrac import sediment
 from capfrac.errors import CaseError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
-from capfrac.runfolder import exactText
+from capfrac.run.folder import exactText
+from capfrac.scene import sediment
 from capfrac.values import isNotNegative, isPositive, shown
 
 #: Share of the largest deviator up to which the moduli are taken [-]: before grains slide on a large scale.

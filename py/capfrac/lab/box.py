@@ -19,9 +19,9 @@ import math
 
 import numpy as np
 
-from capfrac import sediment
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
+from capfrac.scene import sediment
 from capfrac.values import asFloat, isPositive, shown
 
 #: What the walls do in each mode; the bottom stays in all of them.

@@ -4,13 +4,15 @@
 import sys
 from pathlib import Path
 
-from capfrac import environment, keys, namedfiles, tomlfiles
+from capfrac import environment
+from capfrac.case import schema
 from capfrac.errors import CaseError
+from capfrac.io import namedfiles, tomlfiles
 from capfrac.lab import parameters, reports
 from capfrac.lab.run import LabRun
-from capfrac.lab.water import reports as waterReports
-from capfrac.packing import BOULDER
-from capfrac.runfolder import readSummary
+from capfrac.run.folder import readSummary
+from capfrac.scene.packing import BOULDER
+from capfrac.verification import reports as waterReports
 
 _REPORTS = {**reports.REPORTS, **waterReports.REPORTS}
 #: What each test is, in a line.
@@ -69,7 +71,7 @@ def runTest(test, values, folder=None, restart=False, report=lambda text: None, 
 
 
 def _defaults(test):
-    return keys.resolve({}, parameters.TESTS[test], "defaults")
+    return schema.resolve({}, parameters.TESTS[test], "defaults")
 
 
 # --- the command ---------------------------------------------------------------------------------
@@ -113,7 +115,7 @@ def main(arguments):
     """Run the command with parsed arguments; returns the exit status."""
     test = arguments.test
     if arguments.keys:
-        print(keys.describe(parameters.TESTS[test]))
+        print(schema.describe(parameters.TESTS[test]))
         return 0
     raw, base = {}, "."
     if arguments.file:

@@ -15,11 +15,11 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
-from capfrac import sediment
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.run import LabRun
-from capfrac.runfolder import exactText
+from capfrac.run.folder import exactText
+from capfrac.scene import sediment
 from capfrac.values import isPositive, shown
 
 #: Strain at which a compaction towards a stress gives up [-].

@@ -16,11 +16,12 @@ filled.
 
 import numpy as np
 
-from capfrac import sediment, snapshot
 from capfrac.errors import CaseError
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
-from capfrac.lab.water.handmade import requirePositive
+from capfrac.results import snapshot
+from capfrac.scene import sediment
+from capfrac.verification.handmade import requirePositive
 
 #: The corners: name -> (Ca, M). The first three are those that an independent lattice-Boltzmann code documents as its
 #: examples.

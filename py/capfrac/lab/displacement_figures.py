@@ -4,8 +4,8 @@
 import numpy as np
 from matplotlib.collections import EllipseCollection, PolyCollection
 
-from capfrac.figures import COLOURS, newFigure, saveFigure
-from capfrac.snapshot import GAS
+from capfrac.plot.figures import COLOURS, newFigure, saveFigure
+from capfrac.results.snapshot import GAS
 
 
 def drawDisplacement(found, snapshots, path):

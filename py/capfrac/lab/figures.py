@@ -8,9 +8,9 @@ import math
 
 import numpy as np
 
-from capfrac import figures
-from capfrac.figures import COLOURS, newFigure, quantity, saveFigure
 from capfrac.lab import hydrate_ridge
+from capfrac.plot import figures
+from capfrac.plot.figures import COLOURS, newFigure, quantity, saveFigure
 
 #: One colour for each curve of a picture, then over again.
 CYCLE = (

@@ -16,13 +16,13 @@ import math
 
 import numpy as np
 
-from capfrac import sediment
 from capfrac.errors import CaseError
+from capfrac.io.tables import Column, readTable
 from capfrac.lab import compaction
 from capfrac.lab.box import INERTIAL_NUMBER
 from capfrac.lab.run import LabRun
-from capfrac.runfolder import exactText
-from capfrac.tables import Column, readTable
+from capfrac.run.folder import exactText
+from capfrac.scene import sediment
 
 #: Reported indices [-]: smallest, largest, average.
 CC_REPORTED = (0.340, 0.704, 0.568)
@@ -178,7 +178,7 @@ def readLaboratory(path, voidRatio):
 
     ``stress`` [Pa] and ``strain`` [-]; the strain is that of the file where it has one, else it follows from
     ``voidRatio`` [-] at the preload. ``name``: the file. Raises :class:`CaseError` naming file, line and column; see
-    :mod:`capfrac.tables` for what is read.
+    :mod:`capfrac.io.tables` for what is read.
     """
     table = readTable(path, COLUMNS, "the laboratory curve")
     if "strain" in table.values:

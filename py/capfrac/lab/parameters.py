@@ -8,10 +8,11 @@ Every test knows the section ``grains`` and a section of its own. From a script 
 from dataclasses import replace
 from pathlib import Path
 
-from capfrac import grading, keys
+from capfrac.case import schema
+from capfrac.case.schema import Key, notNegative, positive
 from capfrac.errors import CaseError
-from capfrac.keys import Key, notNegative, positive
-from capfrac.sediment import Sediment
+from capfrac.scene import grading
+from capfrac.scene.sediment import Sediment
 from capfrac.values import LARGEST_SEED, MOST_GRAINS, isPositive, shown
 
 #: Condition of what belongs to radii that are uniform between two.
@@ -463,7 +464,7 @@ def resolveTelling(test, raw, source="arguments", problems=()):
     """
     if test not in TESTS:
         raise CaseError(f"test = {shown(test)}, allowed: {', '.join(TESTS)}")
-    values, found, warnings = keys.check(raw, TESTS[test], (_listsAmiss, _sieveAmiss))
+    values, found, warnings = schema.check(raw, TESTS[test], (_listsAmiss, _sieveAmiss))
     if problems or found:
         raise CaseError(*problems, *found, source=source)
     return {section: dict(entries) for section, entries in values.items()}, warnings

@@ -5,24 +5,20 @@ Each function takes the sample, the test's own parameters, its :class:`~capfrac.
 paths in the parameters begin, and returns the results (a dict of numbers, texts, lists, dicts).
 """
 
-from capfrac import snapshot
-from capfrac.errors import CaseError
 from capfrac.lab import (
     biaxial,
     compaction,
-    contacts,
     displacement,
     displacement_figures,
     figures,
     hydrate_ridge,
-    percolation,
-    percolation_figures,
+    properties,
     settling,
-    tables,
-    toughness,
 )
 from capfrac.lab.box import STRAIN_DRIVEN, Box
-from capfrac.runfolder import exactText
+from capfrac.results import snapshot
+from capfrac.run.folder import exactText
+from capfrac.verification import contacts, percolation, percolation_figures, toughness
 
 
 def _settle(sample, own, run, base):
@@ -113,14 +109,14 @@ def _biaxial(sample, own, run, base):
 
 
 def _sizes(sample, own, run, base):
-    found = tables.sizes(sample, run=run, **own)
+    found = properties.sizes(sample, run=run, **own)
     run.table("sizes", found["table"])
     run.picture("sizes", lambda path: figures.drawSizes(found, path))
     return found
 
 
 def _sensitivity(sample, own, run, base):
-    found = tables.sensitivity(sample, run=run, **own)
+    found = properties.sensitivity(sample, run=run, **own)
     run.table("sensitivity", found["table"])
     run.picture("sensitivity", lambda path: figures.drawSensitivity(found, path))
     return found

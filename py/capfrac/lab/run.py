@@ -25,7 +25,7 @@ import json
 
 from capfrac import environment
 from capfrac.errors import RunFolderError
-from capfrac.runfolder import RunFolder, holdingInterrupts
+from capfrac.run.folder import RunFolder, holdingInterrupts
 
 #: Rows of a test between checkpoints; what an interruption may cost.
 CHECKPOINT_TICKS = 20
@@ -43,8 +43,9 @@ class LabRun:
     """Stages, checkpoints and results of a test.
 
     ``test``: its name; ``parameters``: dict of sections, what the run depends on (kept, and compared when a folder is
-    taken up again); ``files``: those that they name (see :func:`capfrac.namedfiles.digests`). ``folder`` None: nothing
-    is written. ``report(text)`` shows progress. Raises :class:`RunFolderError` for a folder that cannot be used.
+    taken up again); ``files``: those that they name (see :func:`capfrac.io.namedfiles.digests`). ``folder`` None:
+    nothing is written. ``report(text)`` shows progress. Raises :class:`RunFolderError` for a folder that cannot be
+    used.
     """
 
     def __init__(self, test, parameters, folder=None, restart=False, report=lambda text: None, files=None):
@@ -60,7 +61,7 @@ class LabRun:
         if self.folder is not None:
             self._takeUp()
             if not self.finished:
-                from capfrac.injection import versions
+                from capfrac.run.injection import versions
 
                 del parameters["test"]
                 self.folder.writeSummary(

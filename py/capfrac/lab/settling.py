@@ -11,10 +11,11 @@ import math
 
 import numpy as np
 
-from capfrac import sediment, snapshot
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
-from capfrac.runfolder import exactText
+from capfrac.results import snapshot
+from capfrac.run.folder import exactText
+from capfrac.scene import sediment
 from capfrac.values import isPositive, shown
 
 #: Share of the grains with a contact at which the second stage, settling and rearrangement, begins [-].

@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from capfrac import depth
-from capfrac.figures import newFigure, saveFigure
+from capfrac.plot.figures import newFigure, saveFigure
 from capfrac.sweep import regime_map, table
 from capfrac.sweep.regime_figures import MODES
+from capfrac.theory import depth
 
 NEEDED = (
     "depth [m]",

@@ -30,7 +30,7 @@ def runPoint(job):
     """Run one point; returns a dict.
 
     ``job`` has ``name``, ``place`` (the working folder), ``folder`` (the run folder), ``key`` (of the run: see
-    :func:`capfrac.runfolder.caseKey`), ``threads``, ``arguments`` (case and overrides) and ``stop``, the path of a
+    :func:`capfrac.run.folder.caseKey`), ``threads``, ``arguments`` (case and overrides) and ``stop``, the path of a
     file: where it exists the point does not begin, or leaves its folder to be taken up.
 
     ``status`` is the exit status of its process (0: finished, 130: interrupted, < 0: ended by that signal), ``error``

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import capfrac
 from capfrac.errors import RunFolderError
-from capfrac.runfolder import difference, putInPlace, readSummary
+from capfrac.run.folder import difference, putInPlace, readSummary
 from capfrac.sweep import table
 
 #: Before the key of the case that failed, in the file that tells why.

@@ -8,11 +8,12 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-from capfrac import keys, namedfiles, tomlfiles
-from capfrac.case import KEYS, readCase, shippedCases
-from capfrac.casepacking import checkPacking
+from capfrac.case import schema
+from capfrac.case.packing import checkPacking
+from capfrac.case.read import KEYS, readCase, shippedCases
 from capfrac.errors import CaseError
-from capfrac.runfolder import caseKey
+from capfrac.io import namedfiles, tomlfiles
+from capfrac.run.folder import caseKey
 from capfrac.values import asFloat, shown
 
 #: Repeats of a sample: its axis is the slowest.
@@ -30,7 +31,7 @@ class Point:
     values: dict  #: axes, rules and keys set by them: name -> value
     case: dict  #: the resolved case
     arguments: tuple  #: case and overrides (``section.key=value``): what makes the same run with ``capfrac inject``
-    files: dict  #: those that the case names (see :func:`capfrac.namedfiles.digests`)
+    files: dict  #: those that the case names (see :func:`capfrac.io.namedfiles.digests`)
 
     @property
     def key(self):
@@ -151,7 +152,7 @@ def _numbers(base, given):
     raw = tomlfiles.readToml(path)
     for key, value in given.items():
         tomlfiles.override(raw, f"{key}={_toml(value)}")
-    case, _, _ = keys.check(raw, KEYS)
+    case, _, _ = schema.check(raw, KEYS)
     return {
         f"{section}.{key}": value
         for section, entries in case.items()

@@ -5,9 +5,9 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from capfrac import regime
-from capfrac.figures import newFigure, saveFigure
+from capfrac.plot.figures import newFigure, saveFigure
 from capfrac.sweep import regime_map
+from capfrac.theory import regime
 
 #: Colours that people with any kind of colour vision can tell apart (Okabe & Ito), each with a shape of its own.
 MODES = {"capillary": ("#0072b2", "o"), "mixed": ("#e69f00", "D"), "fracture": ("#d55e00", "^"), "none": ("0.6", "x")}

@@ -8,8 +8,8 @@ import csv
 
 import numpy as np
 
-from capfrac import regime
 from capfrac.sweep import table
+from capfrac.theory import regime
 
 #: Columns that a table needs.
 NEEDED = (

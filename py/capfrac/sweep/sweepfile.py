@@ -28,22 +28,23 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from capfrac import keys, tomlfiles
+from capfrac.case import schema
 from capfrac.errors import CaseError
+from capfrac.io import tomlfiles
 from capfrac.sweep.formulas import Formula
 from capfrac.sweep.points import CASE_KEYS, SEED, resolvePoints
 from capfrac.sweep.points import Point, refinementLevels  # noqa: F401 (part of this module)
-from capfrac.values import asFloat, shown
+from capfrac.values import asFloat, didYouMean, shown
 
 #: More points than this are a mistake in a list rather than a plan.
 MAX_POINTS = 100_000
 _SWEEP_KEYS = (
-    keys.Key("sweep", "title", str, "-", "", "Title of pictures and reports."),
-    keys.Key("sweep", "description", str, "-", "", "What the sweep is for, where its rules come from."),
-    keys.Key(
-        "sweep", "case", str, "-", keys.REQUIRED, "The base: a case file (beside the sweep file) or a shipped case."
+    schema.Key("sweep", "title", str, "-", "", "Title of pictures and reports."),
+    schema.Key("sweep", "description", str, "-", "", "What the sweep is for, where its rules come from."),
+    schema.Key(
+        "sweep", "case", str, "-", schema.REQUIRED, "The base: a case file (beside the sweep file) or a shipped case."
     ),
-    keys.Key(
+    schema.Key(
         "sweep",
         "figures",
         str,
@@ -93,7 +94,7 @@ def readSweep(nameOrPath, overrides=()):
 def resolveSweep(raw, name, folder=".", source="sweep", overrides=()):
     """The :class:`Sweep` of a sweep file given as a dict; see :func:`readSweep`. ``folder``: where paths begin."""
     problems = _Problems(_unknown(raw))
-    head, found, _ = keys.check({"sweep": raw.get("sweep", {})}, _SWEEP_KEYS)
+    head, found, _ = schema.check({"sweep": raw.get("sweep", {})}, _SWEEP_KEYS)
     problems += found
     head = head["sweep"]
     fixed = problems.collect(_flat, raw.get("set", {}), "set") or {}
@@ -142,7 +143,7 @@ def _namesAmiss(fixed, units, rules, axes):
     """Names that stand where they must not."""
     for key in (*fixed, *(k for k in (*rules, *axes) if "." in k)):
         if key not in CASE_KEYS:
-            yield f"'{key}' is no key of a case{keys.didYouMean(key, CASE_KEYS)}"
+            yield f"'{key}' is no key of a case{didYouMean(key, CASE_KEYS)}"
     for key in axes:
         if key in rules or key in fixed:
             yield (

@@ -4,8 +4,8 @@
 import csv
 import math
 
-from capfrac import mode
 from capfrac.errors import CaseError
+from capfrac.results import mode
 
 #: Columns after those of the sweep file: header -> how to find it in a run's summary.
 RESULTS = {

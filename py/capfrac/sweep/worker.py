@@ -2,7 +2,7 @@
 """One point of a sweep in a process of its own: what :mod:`capfrac.sweep.execution` starts.
 
 The process dies with the one that started it, so a sweep that is killed leaves nothing behind that would still write to
-its folder; the point's run folder is usable at any moment (see :mod:`capfrac.runfolder`).
+its folder; the point's run folder is usable at any moment (see :mod:`capfrac.run.folder`).
 """
 
 import ctypes
@@ -33,11 +33,11 @@ def main():
     signal.signal(
         signal.SIGINT, signal.default_int_handler
     )  # a sweep in the background of a script hands an ignored one on
-    from capfrac.case import readCase
+    from capfrac.case.read import readCase
     from capfrac.errors import CapfracError, CaseError
-    from capfrac.injection import inject
-    from capfrac.namedfiles import digests
-    from capfrac.runfolder import caseKey
+    from capfrac.io.namedfiles import digests
+    from capfrac.run.folder import caseKey
+    from capfrac.run.injection import inject
 
     try:
         case = readCase(base, overrides)
