@@ -1,7 +1,9 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Runs the pressure cycles of the manual and draws them: capfrac python doc/make_cycle.py [grains].
 
-The sample of Figure 15 (coarse), inlet of six pores, drained to 215 Pa, imbibed to nothing, drained again, with snap-off at contact angles of 0 and 30 degrees and without.
-Writes doc/data/cycle.csv and doc/figures/cycle.png: about a minute a cycle.
+The sample of Figure 15 (coarse), inlet of six pores, drained to 215 Pa, imbibed to nothing, drained again, with
+snap-off at contact angles of 0 and 30 degrees and without. Writes doc/data/cycle.csv and doc/figures/cycle.png: about a
+minute a cycle.
 """
 
 import csv
@@ -25,10 +27,22 @@ CASES = [(True, 0, 5), (False, 0, 3), (True, 30, 3)]
 def run(seed, snapOff, degrees=0.0, grainCount=300, increment=2.0):
     """One cycle; returns its table, its measures, a map after the imbibition and the books' error."""
     O.reset()
-    sediment.makeSample(sediment.Sediment(grainCount=grainCount, rMin=1e-3, rMax=2e-3, seed=seed), stressV=10e3, stressH=8e3)
+    sediment.makeSample(
+        sediment.Sediment(grainCount=grainCount, rMin=1e-3, rMax=2e-3, seed=seed), stressV=10e3, stressH=8e3
+    )
     sediment.bond(capillaryStrength=0.5)
     sediment.relax()
-    gas = injection.startInjection(start=100, increment=0, max=101, pores=6, imbibition=True, snapOff=snapOff, contactAngle=math.radians(degrees), checkInvariants=True, minLevelSteps=50)
+    gas = injection.startInjection(
+        start=100,
+        increment=0,
+        max=101,
+        pores=6,
+        imbibition=True,
+        snapOff=snapOff,
+        contactAngle=math.radians(degrees),
+        checkInvariants=True,
+        minLevelSteps=50,
+    )
     maps, errors = [], []
 
     def watch(stage, pressure, saturation):
@@ -42,9 +56,20 @@ def run(seed, snapOff, degrees=0.0, grainCount=300, increment=2.0):
 
 def row(seed, snapOff, degrees, found, error):
     first, second = found["drainage"], found["second drainage"]
-    return {"seed": seed, "snapOff": snapOff, "contactAngle [degrees]": degrees, "maximum [-]": found["maximum"], "residual [-]": found["residual"], "trapped [-]": found["trapped"], "lost [Pa]": found["area"],
-            "advance1 [Pa]": first["advance"], "advance2 [Pa]": second["advance"], "breakthrough1 [Pa]": first["breakthrough"], "breakthrough2 [Pa]": second["breakthrough"],
-            "ledger [-]": error}
+    return {
+        "seed": seed,
+        "snapOff": snapOff,
+        "contactAngle [degrees]": degrees,
+        "maximum [-]": found["maximum"],
+        "residual [-]": found["residual"],
+        "trapped [-]": found["trapped"],
+        "lost [Pa]": found["area"],
+        "advance1 [Pa]": first["advance"],
+        "advance2 [Pa]": second["advance"],
+        "breakthrough1 [Pa]": first["breakthrough"],
+        "breakthrough2 [Pa]": second["breakthrough"],
+        "ledger [-]": error,
+    }
 
 
 def main(grainCount=300, cases=CASES):

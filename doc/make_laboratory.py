@@ -1,6 +1,8 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Puts the results of `scripts/laboratory` into the manual: capfrac python doc/make_laboratory.py [RUNS].
 
-Copies pictures, draws those that come from a summary alone, and writes the tables of doc/laboratory.md between its marks.
+Copies pictures, draws those that come from a summary alone, and writes the tables of doc/laboratory.md between its
+marks.
 """
 
 import json
@@ -12,12 +14,30 @@ from pathlib import Path
 from capfrac.lab import figures
 
 HERE = Path(__file__).parent
-PICTURES = {"settle": ("figure7", "figure8"), "timestep": ("figure9",), "hydrate-ridge": ("figure10",), "compact": ("compaction",), "biaxial-bonded": ("biaxial",),
-            "contacts": ("contacts",), "diffusion": ("figure11", "figure12"), "closed-forms": ("closed-forms",), "undrained": ("figure13",), "terzaghi": ("terzaghi",), "mandel": ("mandel",),
-            "stability": ("stability",), "percolation": ("percolation",), "displacement": ("displacement",)}
+PICTURES = {
+    "settle": ("figure7", "figure8"),
+    "timestep": ("figure9",),
+    "hydrate-ridge": ("figure10",),
+    "compact": ("compaction",),
+    "biaxial-bonded": ("biaxial",),
+    "contacts": ("contacts",),
+    "diffusion": ("figure11", "figure12"),
+    "closed-forms": ("closed-forms",),
+    "undrained": ("figure13",),
+    "terzaghi": ("terzaghi",),
+    "mandel": ("mandel",),
+    "stability": ("stability",),
+    "percolation": ("percolation",),
+    "displacement": ("displacement",),
+}
 #: Tables that the manual offers as files.
 DATA = {"percolation": ("percolation",)}
-UNITS = {"youngModulus": ("E [MPa]", 1e-6), "poissonRatio": ("ν", 1), "frictionAngle": ("φ [°]", 1), "cohesion": ("c [kPa]", 1e-3)}
+UNITS = {
+    "youngModulus": ("E [MPa]", 1e-6),
+    "poissonRatio": ("ν", 1),
+    "frictionAngle": ("φ [°]", 1),
+    "cohesion": ("c [kPa]", 1e-3),
+}
 
 
 def results(runs, name):
@@ -34,24 +54,45 @@ def properties(found, digits=3):
 
 def biaxial(runs):
     header = ["sample", *(label for label, _ in UNITS.values())]
-    return table(header, [[name, *properties(results(runs, f"biaxial-{key}"))] for name, key in (("no bonds", "unbonded"), ("bonds of 100 kPa", "bonded"))])
+    return table(
+        header,
+        [
+            [name, *properties(results(runs, f"biaxial-{key}"))]
+            for name, key in (("no bonds", "unbonded"), ("bonds of 100 kPa", "bonded"))
+        ],
+    )
 
 
 def sizes(runs):
     found = results(runs, "sizes")["table"]
     header = ["r_min [m]", *(label for label, _ in UNITS.values())]
-    return table(header, [[f"{r:.4g}", *properties({name: found[name][k] for name in UNITS}, 5)] for k, r in enumerate(found["rMin [m]"])])
+    return table(
+        header,
+        [
+            [f"{r:.4g}", *properties({name: found[name][k] for name in UNITS}, 5)]
+            for k, r in enumerate(found["rMin [m]"])
+        ],
+    )
 
 
 def sensitivity(runs):
     found = results(runs, "sensitivity")["exponent"]
     header = ["parameter", *(label.split(" ")[0] for label, _ in UNITS.values())]
-    return table(header, [[parameter, *(f"{exponents[name]:+.2f}" for name in UNITS)] for parameter, exponents in found.items()])
+    return table(
+        header, [[parameter, *(f"{exponents[name]:+.2f}" for name in UNITS)] for parameter, exponents in found.items()]
+    )
 
 
 def loops(runs):
     found = results(runs, "hydrate-ridge")
-    rows = [[f"{found['stiffness'][name]:.3g}", f"{found['Cc'][name]:.3f}", *(f"{loop['Cr']:.3f}" for loop in found["loops"][name])] for name in found["stiffness"]]
+    rows = [
+        [
+            f"{found['stiffness'][name]:.3g}",
+            f"{found['Cc'][name]:.3f}",
+            *(f"{loop['Cr']:.3f}" for loop in found["loops"][name]),
+        ]
+        for name in found["stiffness"]
+    ]
     return table(["k_n [N/m]", "C_c", "C_r at 5 %", "at 10 %", "at 15 %", "at 20 %"], rows)
 
 
@@ -70,7 +111,12 @@ def main(runs):
     path = HERE / "laboratory.md"
     text = path.read_text(encoding="utf-8")
     for name, make in TABLES.items():
-        text = re.sub(rf"<!-- table: {name} -->\n.*?<!-- end -->", "\n".join([f"<!-- table: {name} -->", *make(runs), "<!-- end -->"]), text, flags=re.DOTALL)
+        text = re.sub(
+            rf"<!-- table: {name} -->\n.*?<!-- end -->",
+            "\n".join([f"<!-- table: {name} -->", *make(runs), "<!-- end -->"]),
+            text,
+            flags=re.DOTALL,
+        )
     path.write_text(text, encoding="utf-8")
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Draws doc/figures/rate.png from the runs of tests/validation/rate.py: capfrac python doc/make_rate.py.
 
 Runs that are missing are made first (half an hour).
@@ -13,21 +14,35 @@ sys.path.insert(0, str(HERE.parent / "tests" / "validation"))
 
 from rate import LARGE, NUDGED, RUNS, SMALL, one, table  # noqa: E402
 
-from capfrac.figures import COLOURS, newFigure, saveFigure  # noqa: E402
+from capfrac.plot.figures import COLOURS, newFigure, saveFigure  # noqa: E402
 
-STYLES = {"ramp": ("prescribed: a ramp of 1 kPa steps", "0.45", "-"), "large": (f"rate, dead volume {LARGE} times the pores", COLOURS["gas"], "-"),
-          "small": (f"rate, dead volume {SMALL} times the pores", COLOURS["compression"], "-"),
-          "small-half-rate": ("half the rate", COLOURS["tension"], "--"), "small-half-step": ("half the time step", COLOURS["broken"], ":")}
+STYLES = {
+    "ramp": ("prescribed: a ramp of 1 kPa steps", "0.45", "-"),
+    "large": (f"rate, dead volume {LARGE} times the pores", COLOURS["gas"], "-"),
+    "small": (f"rate, dead volume {SMALL} times the pores", COLOURS["compression"], "-"),
+    "small-half-rate": ("half the rate", COLOURS["tension"], "--"),
+    "small-half-step": ("half the time step", COLOURS["broken"], ":"),
+}
 
 
 def marks(axes, run, x, colour):
     """The first opened throat and the breakthrough, at the abscissae `x(iteration)`."""
     events = run["events"]
     first = next((k for k, opened in enumerate(events["opened"]) if opened), None)
-    last = events["iteration"].index(run["breakthroughIter"]) if run["breakthroughIter"] in events["iteration"] else None
+    last = (
+        events["iteration"].index(run["breakthroughIter"]) if run["breakthroughIter"] in events["iteration"] else None
+    )
     for k, marker in ((first, "^"), (last, "o")):
         if k is not None:
-            axes.plot(x(events["iteration"][k]), events["gasPressure"][k] / 1e3, marker, color=colour, markersize=6, markerfacecolor="white", zorder=4)
+            axes.plot(
+                x(events["iteration"][k]),
+                events["gasPressure"][k] / 1e3,
+                marker,
+                color=colour,
+                markersize=6,
+                markerfacecolor="white",
+                zorder=4,
+            )
 
 
 def drawBySupply(axes, run, label, colour, line):
@@ -43,7 +58,9 @@ def main():
     nudged = [one(name, **values) for name, values in NUDGED.items()]
     print(*table([*runs.values(), *nudged]), sep="\n")
     with newFigure((7.2, 3.0)) as figure:
-        left, right = figure.subplots(1, 2, gridspec_kw={"left": 0.075, "right": 0.985, "bottom": 0.16, "top": 0.925, "wspace": 0.2})
+        left, right = figure.subplots(
+            1, 2, gridspec_kw={"left": 0.075, "right": 0.985, "bottom": 0.16, "top": 0.925, "wspace": 0.2}
+        )
         for name in ("ramp", "large", "small"):
             run, (label, colour, line) = runs[name], STYLES[name]
             history = run["history"]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Coarse grains: gas slips between them (Figure 15 of Jain & Juanes 2008), driven step by step from Python.
 
     capfrac python examples/01_capillary_invasion.py [grainCount] [seed]
@@ -25,7 +26,9 @@ def main(grainCount=300, seed=1):
     sediment.bond(capillaryStrength=10 * tension)  # sigma_c = 10 gamma/r
     sediment.relax()
 
-    gas = injection.startInjection(start=100, increment=1, max=215, pores=3, interfacialTension=tension, checkInvariants=True)
+    gas = injection.startInjection(
+        start=100, increment=1, max=215, pores=3, interfacialTension=tension, checkInvariants=True
+    )
     start = snapshot.takeSnapshot(gas)
     while not gas.rampDone:
         O.run(500, True)

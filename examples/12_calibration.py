@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Which microscopic parameter turns which macroscopic property? A table to calibrate a sediment with.
 
     capfrac python examples/12_calibration.py [folder]
@@ -13,11 +14,13 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab import tables
+from capfrac.lab import properties
 
 
 def main(folder=None, grainCount=300, stresses=(20e3, 50e3, 100e3), strain=0.08):
-    found = tables.sensitivity(sediment.Sediment(grainCount=grainCount, rMin=1e-3, seed=1), 2.0, stresses, strain, bondStrength=100e3)
+    found = properties.sensitivity(
+        sediment.Sediment(grainCount=grainCount, rMin=1e-3, seed=1), 2.0, stresses, strain, bondStrength=100e3
+    )
     for parameter, exponents in found["exponent"].items():
         print(parameter, {name: round(n, 2) for name, n in exponents.items()})
     return found

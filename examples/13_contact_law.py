@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The contact law on two grains against Eqs. 1 and 2 of Jain & Juanes (2008), to round-off.
 
     capfrac python examples/13_contact_law.py [folder]
@@ -12,7 +13,7 @@ import capfrac
 
 capfrac.load_engines()
 
-from capfrac.lab import contacts
+from capfrac.verification import contacts
 
 
 def main(folder=None):

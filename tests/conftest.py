@@ -1,10 +1,10 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What all tests share: a clean YADE scene for each, a small settled sample in two sizes, scenes set by hand.
 
 YADE has one scene per process. Every test gets it empty, so no test sees what another one left; tests that need the
 command itself start it as a process of its own (tests/robustness).
 """
 
-import os
 import signal
 import subprocess
 from pathlib import Path
@@ -27,9 +27,16 @@ NUDGE = 1e-12
 
 
 def pytest_addoption(parser):
-    parser.addoption("--nudge", type=int, default=0, metavar="SEED",
-                     help="move the grains of all samples by 1e-12 of their radius at random, as other compilers and "
-                     "libraries do sooner or later: a test that then fails tests the sample, not the program")
+    parser.addoption(
+        "--nudge",
+        type=int,
+        default=0,
+        metavar="SEED",
+        help=(
+            "move the grains of all samples by 1e-12 of their radius at random, as other compilers and "
+            "libraries do sooner or later: a test that then fails tests the sample, not the program"
+        ),
+    )
     parser.addoption("--validation", action="store_true", help="run the long comparisons in tests/validation, too")
 
 
@@ -118,7 +125,9 @@ def handScene():
     def build(disks, box, fixed=True, **attributes):
         x, y, r = np.array(disks, dtype=float).T
         O.reset()
-        sediment.buildScene(sediment.Sediment(grainCount=len(disks), rMin=float(min(r)), rMax=float(max(r)), **attributes), x, y, r, box)
+        sediment.buildScene(
+            sediment.Sediment(grainCount=len(disks), rMin=float(min(r)), rMax=float(max(r)), **attributes), x, y, r, box
+        )
         grains = [body.id for body in O.bodies if hasattr(body.shape, "radius")]
         for i in grains if fixed else []:
             O.bodies[i].state.blockedDOFs = "xyzXYZ"
@@ -129,7 +138,8 @@ def handScene():
 
 @pytest.fixture
 def settledScene(loadSample, handScene):
-    """Builds the settled sample of 60 grains as a scene of grains that stand still; a function (order=None) -> walls (left, right, bottom, top [m]).
+    """Builds the settled sample of 60 grains as a scene of grains that stand still; a function (order=None) -> walls
+    (left, right, bottom, top [m]).
 
     ``order`` renumbers the grains.
     """
@@ -167,8 +177,17 @@ def sceneState():
     """A function that returns all of the scene that an unsuccessful call must leave alone, to be compared with ==."""
 
     def state():
-        bodies = [(b.id, tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel), getattr(b.shape, "radius", None),
-                   tuple(O.forces.f(b.id))) for b in O.bodies]
+        bodies = [
+            (
+                b.id,
+                tuple(b.state.pos),
+                tuple(b.state.vel),
+                tuple(b.state.angVel),
+                getattr(b.shape, "radius", None),
+                tuple(O.forces.f(b.id)),
+            )
+            for b in O.bodies
+        ]
         contacts = sorted((i.id1, i.id2, i.isReal) for i in O.interactions)
         return bodies, contacts, [type(e).__name__ for e in O.engines], O.iter, O.dt
 
@@ -181,7 +200,8 @@ def command():
     launcher = Path(capfrac.__file__).parents[2] / "bin" / "capfrac"
 
     def start(*arguments, **options):
-        return subprocess.Popen([launcher, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                text=True, **options)
+        return subprocess.Popen(
+            [launcher, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options
+        )
 
     return start

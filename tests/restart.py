@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Saving and loading the scene on the way, and the same moment in the run that is not interrupted."""
 
 from yade import O
@@ -21,8 +22,14 @@ def startContactsAnew():
     """
     while len(list(O.interactions.all())) > O.interactions.countReal():
         O.interactions.eraseNonReal()  # it misses the one that moves into the place of the erased
-    O.engines = [InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=e.verletDist, label=e.label)
-                 if isinstance(e, InsertionSortCollider) else e for e in O.engines]
+    O.engines = [
+        (
+            InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=e.verletDist, label=e.label)
+            if isinstance(e, InsertionSortCollider)
+            else e
+        )
+        for e in O.engines
+    ]
 
 
 def cut(tmp_path, interrupt):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The settled sample that most tests begin with: kept as numbers, so that it is the same sample everywhere.
 
 Grains that settle are chaotic: another compiler or mathematical library rounds one digit otherwise, and another sample
@@ -39,7 +40,8 @@ def same(places, radii):
 
 
 def buildSettled(rMin, nudge=same):
-    """Fill the empty scene with the stored sample, its smallest radius ``rMin`` [m], bonded, at rest under 10 and 8 kPa.
+    """Fill the empty scene with the stored sample, its smallest radius ``rMin`` [m], bonded, at rest under 10 and 8
+    kPa.
 
     Lengths and forces go with ``rMin``: a sample without cohesion has no other length (see sediment.settle).
     ``nudge((x, y), radii)`` returns the places that the grains are given, as arrays.

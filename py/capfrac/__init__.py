@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """capfrac: when gas pushes into water-filled sediment, does it slip between the grains or push them apart?
 
 An extension of YADE. ``import capfrac`` in a YADE script or session adds the classes
@@ -12,20 +13,65 @@ An extension of YADE. ``import capfrac`` in a YADE script or session adds the cl
 
 to ``yade.wrapper`` (and to the session's names), and gives what is around them:
 
-* :mod:`capfrac.sediment`: make a sample, compress it, bond it,
-* :mod:`capfrac.injection`: run an injection of gas,
-* :mod:`capfrac.mode`: capillary invasion or fracture, as numbers,
-* :mod:`capfrac.case`, :mod:`capfrac.cli`: case files and the command ``capfrac``,
-* :mod:`capfrac.figures`, :mod:`capfrac.export`: pictures and fields for ParaView.
+* ``sediment``, ``grading``, ``packing``: make a sample, compress it, bond it,
+* ``injection``, ``cycles``: run an injection of gas, or cycles of its pressure; ``rigid``: networks that do not move,
+* ``snapshot``, ``mode``, ``fracture``, ``export``: moments of a run; capillary invasion or fracture, as numbers,
+* ``figures``, ``curve``, ``history``: pictures,
+* ``buoyancy``, ``regime``, ``depth``: theory in closed form,
+* ``case``, ``casescene``, ``sweep``, ``lab``: case files, sweeps, the sediment laboratory; the command ``capfrac``.
+
+These names, :data:`MODULES`, are the public interface: ``from capfrac import sediment, injection``. Where their modules
+lie in the package is not part of it.
 
 All quantities are in SI units; stresses and pressures are positive in compression.
 """
 
 __version__ = "0.1.0"
 
+import importlib
+
 from capfrac.errors import CapfracError, CaseError, SampleError, SceneError
 
-__all__ = ["CapfracError", "CaseError", "SampleError", "SceneError", "load_engines"]
+#: The public modules: name -> where it lies. Each is loaded when it is first asked for.
+MODULES = {
+    "buoyancy": "capfrac.theory.buoyancy",
+    "case": "capfrac.case",
+    "casescene": "capfrac.case.build",
+    "curve": "capfrac.plot.curve",
+    "cycles": "capfrac.run.cycles",
+    "depth": "capfrac.theory.depth",
+    "environment": "capfrac.environment",
+    "errors": "capfrac.errors",
+    "export": "capfrac.results.export",
+    "figures": "capfrac.plot.figures",
+    "fracture": "capfrac.results.fracture",
+    "grading": "capfrac.scene.grading",
+    "history": "capfrac.plot.history",
+    "injection": "capfrac.run.injection",
+    "lab": "capfrac.lab",
+    "mode": "capfrac.results.mode",
+    "packing": "capfrac.scene.packing",
+    "regime": "capfrac.theory.regime",
+    "rigid": "capfrac.run.rigid",
+    "sediment": "capfrac.scene.sediment",
+    "snapshot": "capfrac.results.snapshot",
+    "sweep": "capfrac.sweep",
+}
+
+__all__ = ["CapfracError", "CaseError", "SampleError", "SceneError", "load_engines", *MODULES]
+
+
+def __getattr__(name):
+    """A public module by its name (:data:`MODULES`); AttributeError for any other."""
+    if name not in MODULES:
+        raise AttributeError(f"module 'capfrac' has no attribute '{name}'")
+    module = importlib.import_module(MODULES[name])
+    globals()[name] = module
+    return module
+
+
+def __dir__():
+    return sorted({*globals(), *MODULES})
 
 
 def load_engines(threads=None):
@@ -48,7 +94,6 @@ def load_engines(threads=None):
 
 def _load(threads):
     import contextlib
-    import importlib
     import io
 
     from capfrac import environment
@@ -64,8 +109,19 @@ def _load(threads):
             f"capfrac's engines cannot be loaded ({problem}); start Python with `capfrac python`, "
             "or YADE with `capfrac yade`, which know where everything is"
         ) from problem
-    names = ["DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D",
-             "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "ViscousInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine"]
+    names = [
+        "DiskMat",
+        "WallMat",
+        "Ip2_DiskMat_DiskMat_CohFrictPhys",
+        "Ip2_WallMat_DiskMat_CohFrictPhys",
+        "Ig2_Wall_Sphere_ScGeom6D",
+        "PoreNetworkEngine",
+        "SinglePhaseFlowEngine",
+        "GasInvasionEngine",
+        "ViscousInvasionEngine",
+        "MeniscusCohesionEngine",
+        "WallServoEngine",
+    ]
     main = importlib.import_module("__main__")
     for name in names:
         # A YADE session has YADE's classes among its own names: ours belong there too.
@@ -87,9 +143,14 @@ def _loadIntoYade():
 
     _load(1)
     if environment.unasked():
-        warnings.warn(f"YADE was loaded for {environment.threadsInUse()} threads before capfrac, and the same seed gives "
-                      "other results each time; import capfrac first, or start Python with `capfrac python`",
-                      RuntimeWarning, stacklevel=3)
+        warnings.warn(
+            (
+                f"YADE was loaded for {environment.threadsInUse()} threads before capfrac, and the same seed gives "
+                "other results each time; import capfrac first, or start Python with `capfrac python`"
+            ),
+            RuntimeWarning,
+            stacklevel=3,
+        )
 
 
 if _inside_yade():

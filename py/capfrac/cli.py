@@ -1,4 +1,6 @@
-"""The command ``capfrac``. Exit status: 0 done, 1 a problem (one sentence on stderr), 2 wrong usage, 130 interrupted."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command ``capfrac``. Exit status: 0 done, 1 a problem (one sentence on stderr), 2 wrong usage, 130 interrupted.
+"""
 
 import argparse
 import os
@@ -10,14 +12,30 @@ from capfrac.errors import CapfracError
 
 
 def _parser():
-    parser = argparse.ArgumentParser(prog="capfrac", description="When gas pushes into water-filled sediment, does it slip between the grains or push them apart?")
+    parser = argparse.ArgumentParser(
+        prog="capfrac",
+        description="When gas pushes into water-filled sediment, does it slip between the grains or push them apart?",
+    )
     parser.add_argument("--version", action="version", version=f"capfrac {__version__}")
     commands = parser.add_subparsers(dest="command", required=True)
-    inject = commands.add_parser("inject", help="run an injection of gas from a case file", description="Run a case: make the sample, inject gas, say which mode it was. "
-                                 "Interrupted with Ctrl-C, the same command takes the run up where it stopped.")
+    inject = commands.add_parser(
+        "inject",
+        help="run an injection of gas from a case file",
+        description=(
+            "Run a case: make the sample, inject gas, say which mode it was. "
+            "Interrupted with Ctrl-C, the same command takes the run up where it stopped."
+        ),
+    )
     inject.add_argument("case", help="a case file (TOML), or the name of a shipped case: see `capfrac cases`")
     inject.add_argument("-o", "--output", help="run folder (default: runs/<case>-seed<seed>)")
-    inject.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a value of the case, e.g. -s grains.seed=7")
+    inject.add_argument(
+        "-s",
+        "--set",
+        action="append",
+        default=[],
+        metavar="SECTION.KEY=VALUE",
+        help="replace a value of the case, e.g. -s grains.seed=7",
+    )
     environment.addOption(inject, "threads of the run")
     inject.add_argument("--restart", action="store_true", help="discard an earlier run in the folder")
     inject.add_argument("-q", "--quiet", action="store_true", help="no progress, only the result")
@@ -30,7 +48,9 @@ def _parser():
     commands.add_parser("cases", help="list the shipped cases")
     commands.add_parser("describe", help="list every key of a case file with its unit, default and meaning")
     commands.add_parser("python", help="Python with YADE and capfrac at hand; takes Python's arguments", add_help=False)
-    commands.add_parser("yade", help="YADE, with capfrac at hand (`import capfrac` in it); takes YADE's arguments", add_help=False)
+    commands.add_parser(
+        "yade", help="YADE, with capfrac at hand (`import capfrac` in it); takes YADE's arguments", add_help=False
+    )
     return parser
 
 
@@ -39,7 +59,8 @@ class _Progress:
 
     def __init__(self, case, quiet):
         self.ramp, self.quiet, self.meter, self.last = case["ramp"], quiet, None, ""
-        #: A ramp tells how far the run is; a rate, a reservoir or a program does not: a fracture may end it at any time.
+        #: A ramp tells how far the run is; a rate, a reservoir or a program does not: a fracture may end it at any
+        #: time.
         self.ramped = case["supply"]["control"] == "pressure" and not case["supply"]["program"]
 
     def report(self, text):
@@ -65,8 +86,14 @@ class _Progress:
                 sys.stderr.write("\r\033[K")
             total = self.ramp["max"] - self.ramp["start"] if self.ramped else None
             bar = "{percentage:3.0f}%|{bar:25}| {elapsed}<{remaining}" if self.ramped else "{elapsed}"
-            self.meter = tqdm(total=total, unit="Pa", unit_scale=True, desc="gas", bar_format=f"{{desc}} {bar} {{postfix}}",
-                              mininterval=0.5 if sys.stderr.isatty() else 15)
+            self.meter = tqdm(
+                total=total,
+                unit="Pa",
+                unit_scale=True,
+                desc="gas",
+                bar_format=f"{{desc}} {bar} {{postfix}}",
+                mininterval=0.5 if sys.stderr.isatty() else 15,
+            )
         self.meter.set_postfix_str(f"P_c = {pressure:.4g} Pa, S_g = {saturation:.1%}", refresh=False)
         self.meter.update(pressure - self.ramp["start"] - self.meter.n if self.ramped else 1)
 
@@ -76,17 +103,18 @@ class _Progress:
 
 
 def _inject(arguments):
-    from capfrac import mode
-    from capfrac.case import readCase
+    from capfrac.case.read import readCase
+    from capfrac.results import mode
 
     case = readCase(arguments.case, arguments.set)
     folder = arguments.output or os.path.join("runs", f"{case['case']['name']}-seed{case['grains']['seed']}")
-    from capfrac.injection import inject
+    from capfrac.run.injection import inject
 
     progress = _Progress(case, arguments.quiet)
     try:
-        summary = inject(case, folder, restart=arguments.restart, report=progress.report, bar=progress.bar,
-                         threads=arguments.threads)
+        summary = inject(
+            case, folder, restart=arguments.restart, report=progress.report, bar=progress.bar, threads=arguments.threads
+        )
     except KeyboardInterrupt:
         progress.close()
         print(f"\ninterrupted; the same command takes the run up again from {folder}", file=sys.stderr)
@@ -102,7 +130,7 @@ def _inject(arguments):
 
 
 def _cases():
-    from capfrac.case import readCase, shippedCases
+    from capfrac.case.read import readCase, shippedCases
 
     for name in shippedCases():
         print(f"{name}: {readCase(name)['case']['title']}")
@@ -166,7 +194,7 @@ def main(argv=None):
         if arguments.command == "cases":
             return _cases()
         if arguments.command == "describe":
-            from capfrac.case import describeKeys
+            from capfrac.case.read import describeKeys
 
             print(describeKeys())
             return 0

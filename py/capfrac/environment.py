@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What of the environment capfrac's processes heed, and what not.
 
 Batch systems export ``OMP_NUM_THREADS`` and its kin to every program. A sample of some hundred grains is fastest on
@@ -81,14 +82,18 @@ def agree(threads):
     global _asked
     running = threadsInUse()
     if threads is not None and threads != running:
-        raise CapfracError(f"threads = {threads}, but YADE, or OpenMP with another library, was loaded in this process "
-                           f"for {running} and cannot change; ask before anything else is imported")
+        raise CapfracError(
+            f"threads = {threads}, but YADE, or OpenMP with another library, was loaded in this process "
+            f"for {running} and cannot change; ask before anything else is imported"
+        )
     _asked = threads or _asked
     if unasked():
-        raise CapfracError(f"YADE runs on {running} threads that nobody asked for, so that the same seed gives other "
-                           "results each time: it, or OpenMP with another library, was loaded before capfrac. Import "
-                           "capfrac and call capfrac.load_engines() first, start Python with `capfrac python`, or ask "
-                           f"for them by capfrac.load_engines(threads={running})")
+        raise CapfracError(
+            f"YADE runs on {running} threads that nobody asked for, so that the same seed gives other "
+            "results each time: it, or OpenMP with another library, was loaded before capfrac. Import "
+            "capfrac and call capfrac.load_engines() first, start Python with `capfrac python`, or ask "
+            f"for them by capfrac.load_engines(threads={running})"
+        )
 
 
 def adoptScene():
@@ -102,9 +107,15 @@ def adoptScene():
 
 def addOption(parser, what):
     """Give a command ``--threads``; ``what``: "threads of ..." for its help."""
-    parser.add_argument("--threads", type=int, default=1, metavar="N",
-                        help=f"{what} (default 1, whatever OMP_NUM_THREADS says); with more, the same seed gives other "
-                             "results each time")
+    parser.add_argument(
+        "--threads",
+        type=int,
+        default=1,
+        metavar="N",
+        help=(
+            f"{what} (default 1, whatever OMP_NUM_THREADS says); with more, the same seed gives other results each time"
+        ),
+    )
 
 
 def places():
@@ -132,5 +143,8 @@ def forUser(program):
     first = [str(Path(__file__).parent / "startup"), *places()]
     # An empty entry would be the working folder.
     last = [place for place in variables.get("PYTHONPATH", "").split(os.pathsep) if place and place not in first]
-    return {**variables, "PYTHONPATH": os.pathsep.join([*first, *last]),
-            "CAPFRAC_STARTS": os.pathsep.join([program, *last])}
+    return {
+        **variables,
+        "PYTHONPATH": os.pathsep.join([*first, *last]),
+        "CAPFRAC_STARTS": os.pathsep.join([program, *last]),
+    }

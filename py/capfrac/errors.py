@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What can go wrong, by kind. Every message names the culprit, its value and what is allowed."""
 
 

@@ -1,5 +1,7 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Values as users give them: numbers that can be used, and how messages show what cannot."""
 
+import difflib
 import math
 import numbers
 
@@ -7,6 +9,8 @@ import numbers
 MOST_GRAINS = 1_000_000
 #: Largest seed [-]: the largest whole number of a TOML file.
 LARGEST_SEED = 2**63 - 1
+#: Largest whole number of a key that does not say otherwise [-]: what the engines hold (C++ int).
+LARGEST_INT = 2**31 - 1
 #: Values longer than some of these are shortened in messages [characters].
 _SHOWN = 60
 
@@ -55,3 +59,10 @@ def shown(value):
         except ValueError:  # a table with such a number
             text = f"a {type(value).__name__}"
     return text if len(text) <= 4 * _SHOWN else f"{text[:2 * _SHOWN]} … {text[-_SHOWN:]}"
+
+
+def didYouMean(name, known):
+    """End of a message about an unknown name: what it may have been meant to be, or what there is."""
+    close = difflib.get_close_matches(str(name), known, n=1)
+    names = [*known][:20] + ["…"] * (len(known) > 20)
+    return f"; did you mean '{close[0]}'?" if close else f"; known: {', '.join(names)}"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Cost of a coupled step over a dry one: see scripts/benchmark."""
 
 import json
@@ -42,15 +43,26 @@ def compare(engine, name):
         dry.append(timeSteps())
         engine.dead = False
         coupled.append(timeSteps())
-    return {"engine": name, "cells": engine.nCells, "dryStep [s]": statistics.median(dry), "coupledStep [s]": statistics.median(coupled),
-            "ratio": statistics.median(c / d for c, d in zip(coupled, dry))}
+    return {
+        "engine": name,
+        "cells": engine.nCells,
+        "dryStep [s]": statistics.median(dry),
+        "coupledStep [s]": statistics.median(coupled),
+        "ratio": statistics.median(c / d for c, d in zip(coupled, dry)),
+    }
 
 
 def measure(grainCount):
     """All engines on one sample: a list of :func:`compare`."""
     makeSample(grainCount)
     found = []
-    for name, more in (("GasInvasionEngine", {}), ("GasInvasionEngine, solved water", dict(waterFlow="solved", gasLaw="ideal", poreMode="triangle", closedPore=0.03))):
+    for name, more in (
+        ("GasInvasionEngine", {}),
+        (
+            "GasInvasionEngine, solved water",
+            dict(waterFlow="solved", gasLaw="ideal", poreMode="triangle", closedPore=0.03),
+        ),
+    ):
         gas = injection.startInjection(start=90e3, increment=0, max=90e3, pores=3, **more)
         found.append(compare(gas, name))
         O.engines = [engine for engine in O.engines if engine.label != gas.label]

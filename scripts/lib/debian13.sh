@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 # A bare Debian 13 in a folder of the cache, in which the README's commands run as they would for a new user there.
 # Sourced, never run. Needs root, console.sh, packages.sh and yade.sh.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 # The Debian packages that capfrac and a YADE built from source need.
 # Sourced, never run.
 

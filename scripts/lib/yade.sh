@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 # Finds a YADE that capfrac can be compiled against, or builds a minimal one.
 # Sourced, never run. Sets YADE_PREFIX (the host's installation), YADE_SOURCE_DIR
 # (headers of exactly the same version) and YADE_BUILT_HERE (ON where it is our build).

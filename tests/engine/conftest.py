@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes set by hand that several tests of the engines share."""
 
 import pytest
@@ -9,7 +10,9 @@ R = 1e-3
 
 @pytest.fixture
 def pair(handScene):
-    """A function (overlap, r1, r2, **Sediment) -> (left grain, right grain), the line of centres along x, walls far off."""
+    """A function (overlap, r1, r2, **Sediment) -> (left grain, right grain), the line of centres along x, walls far
+    off.
+    """
 
     def make(overlap, r1=1e-3, r2=1e-3, **attributes):
         far = 10 * (r1 + r2)
@@ -30,7 +33,9 @@ def onFloor(handScene):
 
 @pytest.fixture
 def contact():
-    """A function that makes a step and returns the scene's only contact, after the contact law has seen it; None if it is gone."""
+    """A function that makes a step and returns the scene's only contact, after the contact law has seen it; None if it
+    is gone.
+    """
 
     def step():
         O.step()
@@ -56,11 +61,15 @@ def networkOf(handScene):
 
 @pytest.fixture
 def square(networkOf):
-    """A function (gap, **attributes) -> engine of four grains of radius R on a square, `gap` apart and from the walls."""
+    """A function (gap, **attributes) -> engine of four grains of radius R on a square, `gap` apart and from the
+    walls.
+    """
 
     def make(gap, **attributes):
         low, high, side = R + gap, 3 * R + 2 * gap, 4 * R + 3 * gap
-        return networkOf([(low, low, R), (high, low, R), (low, high, R), (high, high, R)], (0, side, 0, side), **attributes)
+        return networkOf(
+            [(low, low, R), (high, low, R), (low, high, R), (high, high, R)], (0, side, 0, side), **attributes
+        )
 
     return make
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What holds for every picture: texts lie apart and on the sheet, all lines have names, no panel is empty."""
 
 import itertools
@@ -78,7 +79,9 @@ def check(figure, panelsWithoutLegend=()):
             for line in axes.lines:
                 if np.isfinite(np.asarray(line.get_ydata(), dtype=float)).any():
                     colour, kind = _look(line)
-                    assert colour in colours and kind in kinds, f"a line without a name in {axes.get_ylabel()!r}: {line.get_label()}"
+                    assert (
+                        colour in colours and kind in kinds
+                    ), f"a line without a name in {axes.get_ylabel()!r}: {line.get_label()}"
 
 
 def _look(line):

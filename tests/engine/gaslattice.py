@@ -1,13 +1,16 @@
-"""Snapshots set by hand: a square lattice of touching grains between walls, gas in chosen columns, grains moved as a test likes.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Snapshots set by hand: a square lattice of touching grains between walls, gas in chosen columns, grains moved as a
+test likes.
 
-Grains of radius 1/2 stand at (i + 1/2, j + 1/2) in the box [0, COLUMNS] x [0, ROWS] [m]. A pore is a square of four of them, two triangles that hang
-together over its diagonal, which is open; along floor and roof it is a cell of two grains and the wall. So the way up a column passes ROWS throats, and a
-column holds COLUMN_VOID of void, as long as nothing moves.
+Grains of radius 1/2 stand at (i + 1/2, j + 1/2) in the box [0, COLUMNS] x [0, ROWS] [m]. A pore is a square of four of
+them, two triangles that hang together over its diagonal, which is open; along floor and roof it is a cell of two grains
+and the wall. So the way up a column passes ROWS throats, and a column holds COLUMN_VOID of void, as long as nothing
+moves.
 """
 
 import numpy as np
 
-from capfrac.snapshot import GAS, Snapshot
+from capfrac.results.snapshot import GAS, Snapshot
 
 COLUMNS, ROWS = 12, 12
 #: Void of a column of pores [m^2]: its area less that of ROWS grains.
@@ -21,7 +24,9 @@ def grain(i, j):
 
 
 def topology():
-    """Bodies of the cells (c, 3) anticlockwise, and of the edges, ids (t, 2), cells on their sides (t, 2), whether open (t,)."""
+    """Bodies of the cells (c, 3) anticlockwise, and of the edges, ids (t, 2), cells on their sides (t, 2), whether open
+    (t,).
+    """
     cells, number = [], {}
 
     def cell(key, *bodies):
@@ -59,9 +64,11 @@ def columnOf(cell):
 
 
 def lattice(gas=(), moved=None, rattlers=(), upTo=ROWS, inlet=None, iteration=1):
-    """A snapshot with gas in the columns of pores ``gas``, up to the row ``upTo``, from an inlet below the columns ``inlet`` (first, last); None: below the gas.
+    """A snapshot with gas in the columns of pores ``gas``, up to the row ``upTo``, from an inlet below the columns
+    ``inlet`` (first, last); None: below the gas.
 
-    ``moved``: displacements of the grains (n, 2) [m], None: nothing has moved. ``rattlers``: ids of grains without load.
+    ``moved``: displacements of the grains (n, 2) [m], None: nothing has moved. ``rattlers``: ids of grains without
+    load.
     """
     count = COLUMNS * ROWS
     moved = np.zeros((count, 2)) if moved is None else np.asarray(moved, dtype=float)
@@ -81,13 +88,41 @@ def lattice(gas=(), moved=None, rattlers=(), upTo=ROWS, inlet=None, iteration=1)
             ends[on, side] = np.column_stack([ends[on, 1 - side, 0], np.full(on.sum(), y)])
     gap = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - np.where(EDGES < count, 0.5, 0).sum(axis=1)
     return Snapshot(
-        ids=np.arange(count), x=places[:, 0], y=places[:, 1], r=np.full(count, 0.5), displacement=moved, rattler=np.isin(np.arange(count), list(rattlers)),
-        contacts=np.zeros((0, 2)), contactEnds=np.zeros((0, 2, 2)), normalForce=[], shearForce=[], bonded=[], brokenBonds=np.zeros((0, 2)),
-        cellVertices=CELLS, polygonOffsets=np.cumsum([0] + [len(p) for p in polygons]), polygonCorners=np.concatenate(polygons), cellPhase=phase,
-        cellPressure=100.0 * phase, cellVoid=area - np.pi / 8, cellDomain=np.arange(len(CELLS)), cellInlet=np.zeros(len(CELLS), dtype=bool),
-        throatIds=EDGES, throatGap=gap, throatOpen=OPEN, entryPressure=np.full(len(EDGES), 100.0), throatCells=SIDES, box=(0, COLUMNS, 0, ROWS),
-        wallIds=[count, count + 1, BOTTOM, TOP], inletPoints=np.zeros((0, 2)), inletWall="bottom", inletFrom=first + 0.5, inletTo=last + 1.5,
-        gasPressure=100.0, iteration=iteration, gasSaturation=float(area[phase == GAS].sum() / area.sum()))
+        ids=np.arange(count),
+        x=places[:, 0],
+        y=places[:, 1],
+        r=np.full(count, 0.5),
+        displacement=moved,
+        rattler=np.isin(np.arange(count), list(rattlers)),
+        contacts=np.zeros((0, 2)),
+        contactEnds=np.zeros((0, 2, 2)),
+        normalForce=[],
+        shearForce=[],
+        bonded=[],
+        brokenBonds=np.zeros((0, 2)),
+        cellVertices=CELLS,
+        polygonOffsets=np.cumsum([0] + [len(p) for p in polygons]),
+        polygonCorners=np.concatenate(polygons),
+        cellPhase=phase,
+        cellPressure=100.0 * phase,
+        cellVoid=area - np.pi / 8,
+        cellDomain=np.arange(len(CELLS)),
+        cellInlet=np.zeros(len(CELLS), dtype=bool),
+        throatIds=EDGES,
+        throatGap=gap,
+        throatOpen=OPEN,
+        entryPressure=np.full(len(EDGES), 100.0),
+        throatCells=SIDES,
+        box=(0, COLUMNS, 0, ROWS),
+        wallIds=[count, count + 1, BOTTOM, TOP],
+        inletPoints=np.zeros((0, 2)),
+        inletWall="bottom",
+        inletFrom=first + 0.5,
+        inletTo=last + 1.5,
+        gasPressure=100.0,
+        iteration=iteration,
+        gasSaturation=float(area[phase == GAS].sum() / area.sum()),
+    )
 
 
 def _polygon(bodies, places):
@@ -99,7 +134,9 @@ def _polygon(bodies, places):
 
 
 def opened(column, by, rows=ROWS):
-    """Displacements that part the lattice along a column of pores: all grains right of it, up to ``rows``, by ``by`` [m] to the right."""
+    """Displacements that part the lattice along a column of pores: all grains right of it, up to ``rows``, by ``by``
+    [m] to the right.
+    """
     moved = np.zeros((COLUMNS * ROWS, 2))
     for j in range(rows):
         for i in range(column + 1, COLUMNS):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """When the grains count as at rest: by all forces that move them, weight included."""
 
 import pytest
@@ -24,9 +25,19 @@ def heap(handScene):
         sediment.engine("newton").damping = damping
         for body in grains:
             O.bodies[body].state.blockedDOFs = "xzXYZ"  # columns would buckle
-        sediment.insertFluid(GasInvasionEngine(
-            label="gas", gasPressure=1, pressureIncrement=1, maxPressure=1000, inletFrom=0,
-            inletTo=(columns + 0.2) * step, minLevelSteps=100, maxLevelSteps=10**6, **attributes))
+        sediment.insertFluid(
+            GasInvasionEngine(
+                label="gas",
+                gasPressure=1,
+                pressureIncrement=1,
+                maxPressure=1000,
+                inletFrom=0,
+                inletTo=(columns + 0.2) * step,
+                minLevelSteps=100,
+                maxLevelSteps=10**6,
+                **attributes,
+            )
+        )
         return grains
 
     return make

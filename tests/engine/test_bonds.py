@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Bonds: strengths after Eq. 5, how they break, walls as mirrors. Tolerances as in test_contacts.py."""
 
 import pytest
@@ -27,7 +28,8 @@ def test_bondStrengthIsEquation5(pair, r1, r2, thickness, contact):
 
 @pytest.mark.parametrize("factor", [None, 1, 7.5])
 def test_wallIsAMirror(onFloor, factor, contact):
-    # Behind a smooth wall stands the grain's own image: mean radius r, the grain's own material twice; times bondFactor.
+    # Behind a smooth wall stands the grain's own image: mean radius r, the grain's own material twice; times
+    # bondFactor.
     onFloor(1e-6, 2e-3)
     contact()
     if factor is not None:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The command capfrac, as a person types it: its parts that are not an injection."""
 
 import subprocess
@@ -7,7 +8,9 @@ import pytest
 
 
 def capfrac(*arguments):
-    return subprocess.run([sys.executable, "-m", "capfrac.cli", *arguments], capture_output=True, text=True, timeout=120)
+    return subprocess.run(
+        [sys.executable, "-m", "capfrac.cli", *arguments], capture_output=True, text=True, timeout=120
+    )
 
 
 def test_yadeRunsAScriptWithTheEnginesAmongItsNames(tmp_path):
@@ -22,8 +25,20 @@ def test_pythonTakesItsOwnArguments():
     assert capfrac("python", "-c", "print(6 * 7)").stdout.strip() == "42"
 
 
-@pytest.mark.parametrize("name", ["figure14", "figure14_vertical", "figure15", "figure15_solved", "figure16", "figure16_rate", "figure16_small",
-                                  "figure16_solved", "hydrate_ridge_1248C"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "figure14",
+        "figure14_vertical",
+        "figure15",
+        "figure15_solved",
+        "figure16",
+        "figure16_rate",
+        "figure16_small",
+        "figure16_solved",
+        "hydrate_ridge_1248C",
+    ],
+)
 def test_casesAreListed(name):
     assert name in capfrac("cases").stdout
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Contacts without bonds: stiffnesses, Eq. 1, friction, walls; values that are refused.
 
 Two grains (or one and a wall) are held or moved by hand and the contact's forces compared with the formula. What the
@@ -83,10 +84,21 @@ def test_roughWallCarriesShear(onFloor, contact):
     assert O.forces.f(grain)[0] == pytest.approx(-4e6 * 1e-8, rel=EXACT)
 
 
-@pytest.mark.parametrize("cls, name, bad", [
-    (DiskMat, "normalStiffness", 0), (DiskMat, "normalStiffness", math.nan), (DiskMat, "normalStiffness", math.inf),
-    (DiskMat, "shearStiffness", -1), (DiskMat, "tensileStrength", -1), (DiskMat, "shearStrength", math.nan), (DiskMat, "capillaryStrength", -1),
-    (WallMat, "normalStiffness", -1), (WallMat, "shearStiffness", math.inf), (WallMat, "bondFactor", -1)])
+@pytest.mark.parametrize(
+    "cls, name, bad",
+    [
+        (DiskMat, "normalStiffness", 0),
+        (DiskMat, "normalStiffness", math.nan),
+        (DiskMat, "normalStiffness", math.inf),
+        (DiskMat, "shearStiffness", -1),
+        (DiskMat, "tensileStrength", -1),
+        (DiskMat, "shearStrength", math.nan),
+        (DiskMat, "capillaryStrength", -1),
+        (WallMat, "normalStiffness", -1),
+        (WallMat, "shearStiffness", math.inf),
+        (WallMat, "bondFactor", -1),
+    ],
+)
 def test_impossibleValuesAreRefusedByName(cls, name, bad):
     with pytest.raises(ValueError, match=rf"{cls.__name__}\.{name} \[.*\] = .*allowed: finite and >"):
         cls(**{name: bad})

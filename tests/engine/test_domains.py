@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Domains, the pores of the paper: cells that hang together across open contacts, as contacts open and close."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Every example runs, smaller, and gives the number that it promises."""
 
 import importlib.util
@@ -64,8 +65,9 @@ def test_sedimentation(tmp_path):
 
 def test_timeStepScaling(tmp_path):
     results = example("05_time_step").main(str(tmp_path / "run"), grainCount=30)
-    # The stiffest grain of 30 has the contacts that it happens to have: time steps of single samples scatter by 10 %, over four
-    # decades (a line through three points, ln 1e4 apart) that is 0.1 sqrt(2)/9.2 in the exponent. (The manual's samples: 0.4 %.)
+    # The stiffest grain of 30 has the contacts that it happens to have: time steps of single samples scatter by 10 %,
+    # over four decades (a line through three points, ln 1e4 apart) that is 0.1 sqrt(2)/9.2 in the exponent. (The
+    # manual's samples: 0.4 %.)
     assert results["radius"]["exponent"] == pytest.approx(1, abs=0.02)
     assert results["stiffness"]["exponent"] == pytest.approx(-0.5, abs=0.02)
 
@@ -87,8 +89,8 @@ def test_stressPaths():
 
 def test_biaxial(tmp_path):
     found = example("10_biaxial").main(str(tmp_path), grainCount=60, stresses=(20e3, 100e3), strain=0.03)
-    # 60 grains are not representative: their friction angle may come out negative. But they are a solid, and the line of
-    # two peaks passes both.
+    # 60 grains are not representative: their friction angle may come out negative. But they are a solid, and the line
+    # of two peaks passes both.
     assert all(test["peak"] > 1.05 * test["stress"] for test in found["tests"])
     assert found["residual"] < 1e-12 and abs(found["frictionAngle"]) < 45
     assert 0 < found["poissonRatio"] < 1 and 5e5 < found["youngModulus"] < 1e7
@@ -103,14 +105,17 @@ def test_contactLaw(tmp_path):
 
 def test_grainSizeDoesNotMatter():
     found = example("11_grain_size").main(grainCount=40, stresses=(20e3, 50e3), strain=0.02)
-    # A power of two apart: every number of one run is that of the other times a power of two, so the results are the same.
+    # A power of two apart: every number of one run is that of the other times a power of two, so the results are the
+    # same.
     assert all(share == 0 for share in found["spread"].values())
 
 
 def test_pressureDiffusion(tmp_path):
     results = example("14_pressure_diffusion").main(str(tmp_path / "run"), grainCount=100, steps=100, explicitGrains=30)
     assert 5e-3 < results["kOverR2"] < 1.3e-2  # 9.05e-3 in large random packs
-    assert results["storageTimesBulkModulus"] == pytest.approx(results["porosityBetween"], rel=0.05)  # what weighs the porosity differently: see the verification
+    assert results["storageTimesBulkModulus"] == pytest.approx(
+        results["porosityBetween"], rel=0.05
+    )  # what weighs the porosity differently: see the verification
     assert max(results["placeErrors"]["rms"]) < 1  # within a grain of Eq. 20 at all times
     for picture in ("figure11", "figure12", "explicit"):
         assert (tmp_path / "run" / "pictures" / f"{picture}.png").stat().st_size > 5000
@@ -119,10 +124,12 @@ def test_pressureDiffusion(tmp_path):
 
 
 def test_closedForms(tmp_path, monkeypatch):
-    monkeypatch.setattr("capfrac.lab.water.units.STEPS", 200)
+    monkeypatch.setattr("capfrac.verification.units.STEPS", 200)
     results = example("18_closed_forms").main(str(tmp_path / "run"), grainCount=20)
     assert max(results["network"].values()) < 1e-12
-    assert results["twoPores"]["implicit"]["orders"][-1] == pytest.approx(1, abs=0.01) and results["pulse"]["orders"][-1] == pytest.approx(2, abs=0.1)
+    assert results["twoPores"]["implicit"]["orders"][-1] == pytest.approx(1, abs=0.01) and results["pulse"]["orders"][
+        -1
+    ] == pytest.approx(2, abs=0.1)
     assert (tmp_path / "run" / "pictures" / "closed-forms.png").stat().st_size > 50_000
 
 
@@ -142,7 +149,8 @@ def test_terzaghi(tmp_path):
 
 def test_mandel(tmp_path):
     found = example("17_mandel").main(str(tmp_path / "run"), grainCount=80, steps=4000)
-    # Too small and quick for the numbers, which tests/verification and the manual have; the pressure rises all the same.
+    # Too small and quick for the numbers, which tests/verification and the manual have; the pressure rises all the
+    # same.
     assert found["peak"] > 1.02 and found["ledger"] < 1e-12
     assert (tmp_path / "run" / "pictures" / "mandel.png").stat().st_size > 5000
 
@@ -178,10 +186,19 @@ def test_buoyancy():
 
 def test_percolation(tmp_path):
     sizes = [16, 32, 64]
-    found = example("21_percolation").main(str(tmp_path / "run"), sizes=sizes, delaunaySizes=sizes, samples=20, delaunaySamples=20, radiusSize=512, radiusSamples=5)
+    found = example("21_percolation").main(
+        str(tmp_path / "run"),
+        sizes=sizes,
+        delaunaySizes=sizes,
+        samples=20,
+        delaunaySamples=20,
+        radiusSize=512,
+        radiusSamples=5,
+    )
     for network in ("square", "delaunay"):
         for kind, one in found[network].items():
-            # Four standard errors, and 0.03 for the smallest networks: tests/verification and the manual have larger ones.
+            # Four standard errors, and 0.03 for the smallest networks: tests/verification and the manual have larger
+            # ones.
             assert one["dimension"] == pytest.approx(found["literature"][kind], abs=4 * one["dimensionError"] + 0.03)
     assert (tmp_path / "run" / "pictures" / "percolation.png").stat().st_size > 50_000
 
@@ -201,15 +218,21 @@ def test_figure14(tmp_path):
         assert found["crackedThroats"] + found["stretchedThroats"] + found["rigidThroats"] > 0
         assert (tmp_path / f"{name}-60-seed2" / "fracture.png").stat().st_size > 20_000
         assert (tmp_path / f"{name}-60-seed2" / "stress.png").stat().st_size > 20_000
-    # The scene is that of the last run: its inlet was put around the middle, from where the walls have moved by a few per cent.
-    # A mean radius is 1.5 um.
+    # The scene is that of the last run: its inlet was put around the middle, from where the walls have moved by a few
+    # per cent. A mean radius is 1.5 um.
     walls, gas = sediment.wallBodies(), sediment.engine("gas")
-    middle = [0.5 * (walls[low].state.pos[axis] + walls[high].state.pos[axis]) for axis, low, high in ((0, "left", "right"), (1, "bottom", "top"))]
+    middle = [
+        0.5 * (walls[low].state.pos[axis] + walls[high].state.pos[axis])
+        for axis, low, high in ((0, "left", "right"), (1, "bottom", "top"))
+    ]
     assert len(gas.inletPoints) >= 25 and list(gas.inletPoints[0]) == pytest.approx(middle, abs=1.5e-6)
     assert max(math.dist(point, gas.inletPoints[0]) for point in gas.inletPoints) == pytest.approx(3e-6)
 
+
 def test_toughness(tmp_path):
-    found = example("26_toughness").main(str(tmp_path), grainCount=80, columns=10, brokenContacts=(1, 2), halfLengths=(1.5, 2.5))
+    found = example("26_toughness").main(
+        str(tmp_path), grainCount=80, columns=10, brokenContacts=(1, 2), halfLengths=(1.5, 2.5)
+    )
     assert found["latticeError"] < 0.03  # the increment of the ramp, 1 %, and the stretch of the bonds, 2 %
     assert all(test["pressure"] > found["stress"] for test in found["samples"]["tests"])
     assert (tmp_path / "toughness.png").stat().st_size > 20_000
@@ -220,8 +243,13 @@ def test_regimeMap(tmp_path):
     # The corners of the map at 8 kPa: sigma'_H r/gamma = 0.07 without cohesion cannot but fracture, 720 cannot.
     modes = {(row["grains.rMin [m]"], row["cohesion.chi [-]"]): row["mapMode"] for row in rows}
     assert modes[3e-7, 0] == "fracture" and modes[3e-3, 0] == modes[3e-3, 10] == "capillary"
-    # Rigid grains of 3-6 mm, 4.65 gamma/r = 52 Pa in large packs; throats of 6 to 3 mm at contact open between 40 and 80 Pa.
+    # Rigid grains of 3-6 mm, 4.65 gamma/r = 52 Pa in large packs; throats of 6 to 3 mm at contact open between 40 and
+    # 80 Pa.
     assert all(40 < row["pressure"] < 80 for row in rows if row["mapMode"] == "capillary")
     for name in ("regime_map.png", "regime_collapse.png"):
         assert (tmp_path / "run" / "figures" / name).stat().st_size > 20_000
-    assert (tmp_path / "run" / "figures" / "critical_radius.csv").read_text().startswith("cohesion.chi [-],stress.horizontal [Pa],")
+    assert (
+        (tmp_path / "run" / "figures" / "critical_radius.csv")
+        .read_text()
+        .startswith("cohesion.chi [-],stress.horizontal [Pa],")
+    )

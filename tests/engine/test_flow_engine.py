@@ -1,4 +1,7 @@
-"""SinglePhaseFlowEngine in a scene: grains that it compresses, boundaries that change, what it saves, and what it refuses in the loop."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""SinglePhaseFlowEngine in a scene: grains that it compresses, boundaries that change, what it saves, and what it
+refuses in the loop.
+"""
 
 import math
 
@@ -30,7 +33,8 @@ def test_grainsFollowThePressureRoundThem(loadSample, scheme):
     O.dt = 0.9 * engine.explicitTimeStepLimit() if scheme == "explicit" else 1e-2
     sediment.advance(4000 if scheme == "explicit" else 20)
     pressures = engine.pores()["pressure"]
-    # Eq. 10 where the pressure has spread: everywhere in the implicit steps, within what is left of the diffusion in explicit ones.
+    # Eq. 10 where the pressure has spread: everywhere in the implicit steps, within what is left of the diffusion in
+    # explicit ones.
     share = 1 - min(pressures) / 1e5
     assert share < (0.2 if scheme == "explicit" else 1e-9)
     np.testing.assert_allclose(1 - radii() / before, 1e5 / (3 * K), rtol=share + 1e-9)
@@ -46,7 +50,9 @@ def test_radiiOfCompressedGrainsSurviveSaving(loadSample, tmp_path):
         return radii().tolist(), [tuple(body.state.pos) for body in sediment.grainBodies()]
 
     loadSample()
-    sediment.insertFluid(SinglePhaseFlowEngine(label="flow", bulkModulus=1e7, grainBulkModulus=1e8, wallPressures=[NAN, NAN, 0.0, 2e3]))
+    sediment.insertFluid(
+        SinglePhaseFlowEngine(label="flow", bulkModulus=1e7, grainBulkModulus=1e8, wallPressures=[NAN, NAN, 0.0, 2e3])
+    )
     go()
     pressures = sediment.engine("flow").pores()["pressure"]
     O.save(str(tmp_path / "scene.yade.gz"), quiet=True)
@@ -61,7 +67,13 @@ def test_grainsTooSoftForTheirPressureAreRefused(loadSample):
     loadSample()
     before = radii()
     alone(timeIntegration="implicit", bulkModulus=1e9, grainBulkModulus=1e3, wallPressures=[1e4] * 4)
-    with pytest.raises(RuntimeError, match=r"at time t = .* body #\d+: the pressure round it, .* would compress it to less than half .* grainBulkModulus = 1000"):
+    with pytest.raises(
+        RuntimeError,
+        match=(
+            r"at time t = .* body #\d+: the pressure round it, .* would compress it to less than half .*"
+            r" grainBulkModulus = 1000"
+        ),
+    ):
         O.step()
     assert (radii() == before).all()
 
@@ -91,14 +103,19 @@ def test_boundariesMayChangeAtAnyTime(loadSample):
 
 
 def test_aPressureThatSwingsEntersAsFarAsItsWave(handScene):
-    # A row of pores between equal grains on a square lattice, long against the wave: p = exp(-x/d) cos(wt - x/d), d = sqrt(2 D/w).
+    # A row of pores between equal grains on a square lattice, long against the wave: p = exp(-x/d) cos(wt - x/d), d =
+    # sqrt(2 D/w).
     r, n, rows = 1e-3, 60, 3
-    handScene([(r + 2 * r * i, r + 2 * r * j, r) for i in range(n) for j in range(rows)], (0, 2 * r * n, 0, 2 * r * rows))
+    handScene(
+        [(r + 2 * r * i, r + 2 * r * j, r) for i in range(n) for j in range(rows)], (0, 2 * r * n, 0, 2 * r * rows)
+    )
     engine = alone(timeIntegration="implicit", bulkModulus=1e7, poreMode="triangle", wallPressures=[0.0, NAN, NAN, NAN])
     O.dt = 1e-9
     O.step()
     # Diffusivity from the network itself: k K_f/(mu phi), k from a steady flow.
-    steady = alone(timeIntegration="implicit", bulkModulus=math.inf, poreMode="triangle", wallPressures=[1.0, 0.0, NAN, NAN])
+    steady = alone(
+        timeIntegration="implicit", bulkModulus=math.inf, poreMode="triangle", wallPressures=[1.0, 0.0, NAN, NAN]
+    )
     O.step()
     pores = steady.pores()
     x, p, volume = (np.array(pores[name]) for name in ("x", "pressure", "volume"))
@@ -117,15 +134,28 @@ def test_aPressureThatSwingsEntersAsFarAsItsWave(handScene):
     x, p, volume = (np.array(pores[name]) for name in ("x", "pressure", "volume"))
     origin = np.average(x[p == 1e3 * math.cos(omega * O.dt * 4 * steps)])
     expected = 1e3 * np.exp(-(x - origin) / depth) * np.cos(2 * math.pi * 4 - (x - origin) / depth)
-    # Time: backward Euler damps by w dt/2 = 1.6 % a radian; space: pores within a cell of the lattice lie r apart in x, r/depth = 8 % of the steepest slope.
+    # Time: backward Euler damps by w dt/2 = 1.6 % a radian; space: pores within a cell of the lattice lie r apart in x,
+    # r/depth = 8 % of the steepest slope.
     assert np.abs(p - expected).max() < 0.08 * 1e3
 
 
 def test_aClusterThatFloatsIsNamedByItsPlace(loadSample):
     loadSample()
     # Contacts that bear a force and have no aperture left are tight: pores between such grains are cut off.
-    alone(timeIntegration="implicit", bulkModulus=math.inf, conductanceLaw="parallelPlates", residualAperture=0.0, wallPressures=[NAN, NAN, 0.0, NAN])
-    with pytest.raises(RuntimeError, match=r"SinglePhaseFlowEngine at time t = .*: pore \d+: its cluster \(pores: \d+\) is cut off .* \(pore \d+ lies at \(.*\) m\)"):
+    alone(
+        timeIntegration="implicit",
+        bulkModulus=math.inf,
+        conductanceLaw="parallelPlates",
+        residualAperture=0.0,
+        wallPressures=[NAN, NAN, 0.0, NAN],
+    )
+    with pytest.raises(
+        RuntimeError,
+        match=(
+            r"SinglePhaseFlowEngine at time t = .*: pore \d+: its cluster \(pores: \d+\) is cut off .* \(pore \d+ lies"
+            r" at \(.*\) m\)"
+        ),
+    ):
         O.step()
 
 
@@ -137,7 +167,10 @@ def test_aContactThatGivesNoNumberIsNamed(loadSample):
     contact.phys.kn = NAN
     water = sediment.engine("flow").volumes()["water"]
     before = [tuple(body.state.pos) for body in O.bodies]
-    with pytest.raises(RuntimeError, match=r"at time t = .* s, iteration \d+: body #\d+: force \(.*nan.*\) N, velocity .*; allowed: finite"):
+    with pytest.raises(
+        RuntimeError,
+        match=r"at time t = .* s, iteration \d+: body #\d+: force \(.*nan.*\) N, velocity .*; allowed: finite",
+    ):
         O.step()
     assert [tuple(body.state.pos) for body in O.bodies] == before
     contact.phys.kn = 1e7

@@ -1,8 +1,9 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """GasInvasionEngine on packings that stand still: which pores the gas enters, in which order, at which pressure.
 
-The oracle below is written on the lists that the engine reports of its initial state and on nothing else of it: no heap,
-no union-find, every throat looked at again before each step. Entry pressures are those of the lists, so the comparison
-is exact. (tests/verification checks the entry pressures themselves.)
+The oracle below is written on the lists that the engine reports of its initial state and on nothing else of it: no
+heap, no union-find, every throat looked at again before each step. Entry pressures are those of the lists, so the
+comparison is exact. (tests/verification checks the entry pressures themselves.)
 """
 
 import numpy as np
@@ -18,8 +19,13 @@ class Oracle:
     def __init__(self, gas, trapping, outlet=3):
         cells, self.trapping = gas.cells(), trapping
         throats = gas.throats()
-        self.edges = [(tuple(ids), left, right, p, isOpen) for ids, p, (left, right), isOpen in
-                      zip(throats["ids"], throats["entryPressure"], throats["cells"], throats["open"]) if left >= 0 and right >= 0]
+        self.edges = [
+            (tuple(ids), left, right, p, isOpen)
+            for ids, p, (left, right), isOpen in zip(
+                throats["ids"], throats["entryPressure"], throats["cells"], throats["open"]
+            )
+            if left >= 0 and right >= 0
+        ]
         self.vertices = [tuple(v) for v in cells["vertices"]]
         self.gas = set(c for c, phase in enumerate(cells["phase"]) if phase)
         self.joined = gas.poreMode == "domain"
@@ -30,8 +36,13 @@ class Oracle:
         """All of `members` that can be reached from `seed` over the edges that `through` lets pass."""
         found = set(seed)
         while True:
-            more = {b for ids, left, right, p, isOpen in self.edges if through(isOpen)
-                    for a, b in ((left, right), (right, left)) if a in found and b in members and b not in found}
+            more = {
+                b
+                for ids, left, right, p, isOpen in self.edges
+                if through(isOpen)
+                for a, b in ((left, right), (right, left))
+                if a in found and b in members and b not in found
+            }
             if not more:
                 return found
             found |= more
@@ -49,8 +60,11 @@ class Oracle:
     def advance(self, pressure):
         while True:
             free = self.drained()
-            front = [(p, ids, a if a in free else b) for ids, a, b, p, _ in self.edges
-                     if p <= pressure and ((a in self.gas and b in free) or (b in self.gas and a in free))]
+            front = [
+                (p, ids, a if a in free else b)
+                for ids, a, b, p, _ in self.edges
+                if p <= pressure and ((a in self.gas and b in free) or (b in self.gas and a in free))
+            ]
             if not front:
                 return
             p, ids, cell = min(front)
@@ -89,10 +103,15 @@ def test_eventsAreThoseOfTheOracle(rigid, packing, poreMode, trapping):
         assert all(phases) and gas.gasSaturation == pytest.approx(1, abs=1e-14)
 
 
-@pytest.mark.parametrize("packing, poreMode, trapping", [("settled", "domain", False), ("settled", "domain", True), ("loose", "triangle", False)])
+@pytest.mark.parametrize(
+    "packing, poreMode, trapping",
+    [("settled", "domain", False), ("settled", "domain", True), ("loose", "triangle", False)],
+)
 def test_renumberedGrainsGiveTheSameEvents(rigid, packing, poreMode, trapping):
     def run(order):
-        gas = rigid(packing, order, poreMode=poreMode, trapping=trapping, gasPressure=20, pressureIncrement=10, maxPressure=300)
+        gas = rigid(
+            packing, order, poreMode=poreMode, trapping=trapping, gasPressure=20, pressureIncrement=10, maxPressure=300
+        )
         O.run(400, True)
         assert gas.rampDone
         return gas, gas.events()
@@ -174,9 +193,20 @@ def test_onePoreAtATimeEndsWhereTheAvalancheEnds(rigid):
     assert min(np.diff(paced["iteration"])) >= 7
 
 
-@pytest.mark.parametrize("name, good, bad", [
-    ("interfacialTension", 0.072, -1.0), ("contactAngle", 0.5, 2.0), ("gasPressure", 10.0, float("nan")), ("entryLaw", "mayerStowePrincen", "young"),
-    ("inletWall", "left", "floor"), ("invasionInterval", 3, -1), ("minLevelSteps", 5, 0), ("thickness", 2.0, 0.0), ("poreMode", "triangle", "hexagon")])
+@pytest.mark.parametrize(
+    "name, good, bad",
+    [
+        ("interfacialTension", 0.072, -1.0),
+        ("contactAngle", 0.5, 2.0),
+        ("gasPressure", 10.0, float("nan")),
+        ("entryLaw", "mayerStowePrincen", "young"),
+        ("inletWall", "left", "floor"),
+        ("invasionInterval", 3, -1),
+        ("minLevelSteps", 5, 0),
+        ("thickness", 2.0, 0.0),
+        ("poreMode", "triangle", "hexagon"),
+    ],
+)
 def test_refusedAssignmentsChangeNothing(name, good, bad):
     from yade.wrapper import GasInvasionEngine
 

@@ -1,4 +1,7 @@
-"""The supply of gas of GasInvasionEngine: equations of state, prescribed pressures, rates and reservoirs, and the mass of the gas."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The supply of gas of GasInvasionEngine: equations of state, prescribed pressures, rates and reservoirs, and the mass
+of the gas.
+"""
 
 import math
 
@@ -9,8 +12,8 @@ from yade.wrapper import GasInvasionEngine
 
 from capfrac import injection
 
-#: Entry pressures of the settled sample of 1-2 mm are 121-241 Pa. With this absolute pressure of the water its pores are
-#: filled under changes of pressure that show, from a reservoir of some ten of them.
+#: Entry pressures of the settled sample of 1-2 mm are 121-241 Pa. With this absolute pressure of the water its pores
+#: are filled under changes of pressure that show, from a reservoir of some ten of them.
 DATUM, RESERVOIR = 1000.0, 1e-4
 IDEAL = dict(gasLaw="ideal", gasMolarMass=0.02, gasTemperature=300.0, gasDeviation=0.9, pressureDatum=DATUM)
 DENSITY_PER_PRESSURE = 0.02 / (0.9 * 8.31446261815324 * 300.0)
@@ -38,15 +41,30 @@ TABLE = [(1e4, 0.1), (2e5, 1.4), (1e6, 9.0)]
 def test_underPrescribedPressureTheLawDoesNotMatter(loadSample, attributes):
     def run(**law):
         loadSample(1e-6)
-        gas = injection.startInjection(130e3, 5e3, 250e3, pores=3, checkInvariants=True, minLevelSteps=20, maxLevelSteps=300, **attributes, **law)
+        gas = injection.startInjection(
+            130e3, 5e3, 250e3, pores=3, checkInvariants=True, minLevelSteps=20, maxLevelSteps=300, **attributes, **law
+        )
         O.run(2000, True)
         cells = gas.cells()
-        return {"events": gas.events(), "levels": gas.levels(), "phase": cells["phase"], "pressure": cells["pressure"],
-                "places": [tuple(b.state.pos) for b in O.bodies]}, gas.gasLedger(), gas
+        return (
+            {
+                "events": gas.events(),
+                "levels": gas.levels(),
+                "phase": cells["phase"],
+                "pressure": cells["pressure"],
+                "places": [tuple(b.state.pos) for b in O.bodies],
+            },
+            gas.gasLedger(),
+            gas,
+        )
 
     plain, ledger, gas = run()
     assert gas.nEvents and gas.nRemeshes and gas.brokenBonds()  # else it was not torn, and nothing is shown
-    for law in (dict(gasLaw="ideal"), dict(gasLaw="ideal", reservoirVolume=1e-9), dict(gasLaw="tabulated", gasTable=TABLE)):
+    for law in (
+        dict(gasLaw="ideal"),
+        dict(gasLaw="ideal", reservoirVolume=1e-9),
+        dict(gasLaw="tabulated", gasTable=TABLE),
+    ):
         other, counted, gas = run(**law)
         assert counted["error"] < 1e-10 and counted["supplied"] > 0
         for name in plain:
@@ -59,7 +77,9 @@ def test_programGoesUpAndDown(rigid):
     # Levels: each turning point is met exactly; a point that is there already is none of its own.
     assert gas.levels()["pressure"] == [100, 130, 160, 190, 160, 130, 160] and gas.rampDone and gas.programPosition == 4
     saturations = gas.levels()["gasSaturation"]
-    assert saturations == sorted(saturations) and saturations[3] == saturations[-1]  # no imbibition: what is filled stays filled
+    assert (
+        saturations == sorted(saturations) and saturations[3] == saturations[-1]
+    )  # no imbibition: what is filled stays filled
     gas.pressureProgram = [220]
     assert not gas.rampDone and gas.programPosition == 0
     O.run(200, True)
@@ -73,12 +93,18 @@ def test_stepsAreProgramsWithALargeIncrement(rigid):
 
 
 def test_massUnderPressureIsDensityTimesVolume(rigid):
-    gas = rigid("settled", gasPressure=100, pressureIncrement=30, pressureProgram=[190, 130], reservoirVolume=RESERVOIR, **IDEAL)
+    gas = rigid(
+        "settled", gasPressure=100, pressureIncrement=30, pressureProgram=[190, 130], reservoirVolume=RESERVOIR, **IDEAL
+    )
     while not gas.rampDone:
         pressure = gas.gasPressure  # that of the coming step; at its end it may change for the next
         O.step()
-        assert massIn(gas) == pytest.approx(DENSITY_PER_PRESSURE * (pressure + DATUM) * (RESERVOIR + gas.volumes()["gas"]), rel=ROUND_OFF)
-    assert pressure == 130 and massIn(gas) < DENSITY_PER_PRESSURE * (190 + DATUM) * (RESERVOIR + gas.volumes()["gas"])  # some went back
+        assert massIn(gas) == pytest.approx(
+            DENSITY_PER_PRESSURE * (pressure + DATUM) * (RESERVOIR + gas.volumes()["gas"]), rel=ROUND_OFF
+        )
+    assert pressure == 130 and massIn(gas) < DENSITY_PER_PRESSURE * (190 + DATUM) * (
+        RESERVOIR + gas.volumes()["gas"]
+    )  # some went back
 
 
 # --- the pressure follows -------------------------------------------------------------------------
@@ -114,7 +140,9 @@ def fullOfGas(rigid, **attributes):
 def test_pistonCompressesTheGas(rigid, reservoir):
     gas = fullOfGas(rigid, reservoirVolume=reservoir)
     O.step()
-    assert gas.gasPressure == pytest.approx(1000, rel=ROUND_OFF)  # the same gas: nothing jumps where the control changes
+    assert gas.gasPressure == pytest.approx(
+        1000, rel=ROUND_OFF
+    )  # the same gas: nothing jumps where the control changes
     constant = (1000 + DATUM) * (reservoir + gas.volumes()["void"])
     mass = massIn(gas)
     top = O.bodies[3]
@@ -135,8 +163,12 @@ def test_gasDoesNotGetThinnerThanTheWater(rigid):
     O.step()
     volumes = gas.volumes()
     assert gas.gasPressure == 0 == gas.waterPressure
-    assert volumes["gas"] == pytest.approx(mass / (DENSITY_PER_PRESSURE * DATUM), rel=ROUND_OFF)  # p V = const down to the water's pressure
-    assert before < volumes["gas"] < 0.9 * volumes["void"] and volumes["error"] < 1e-12  # the rest is water that came in
+    assert volumes["gas"] == pytest.approx(
+        mass / (DENSITY_PER_PRESSURE * DATUM), rel=ROUND_OFF
+    )  # p V = const down to the water's pressure
+    assert (
+        before < volumes["gas"] < 0.9 * volumes["void"] and volumes["error"] < 1e-12
+    )  # the rest is water that came in
     top.state.pos -= (0, 0.04, 0)
     O.step()
     assert gas.gasPressure == pytest.approx(1000, rel=1e-11) and massIn(gas) == pytest.approx(mass, rel=ROUND_OFF)
@@ -144,24 +176,51 @@ def test_gasDoesNotGetThinnerThanTheWater(rigid):
 
 def test_tableFollowsToo(rigid):
     table = [(900.0, 2.0), (1100.0, 3.0), (1400.0, 3.5)]
-    gas = rigid("settled", gasPressure=100, gasControl="rate", gasRate=0.02, reservoirVolume=RESERVOIR, gasLaw="tabulated", gasTable=table, pressureDatum=DATUM)
+    gas = rigid(
+        "settled",
+        gasPressure=100,
+        gasControl="rate",
+        gasRate=0.02,
+        reservoirVolume=RESERVOIR,
+        gasLaw="tabulated",
+        gasTable=table,
+        pressureDatum=DATUM,
+    )
     O.dt = 1e-5
     for _ in range(100):
         O.step()
         density = massIn(gas) / (RESERVOIR + gas.volumes()["gas"])
-        assert gas.gasPressure + DATUM == pytest.approx(np.interp(density, *zip(*[(rho, p) for p, rho in table])), rel=ROUND_OFF)
+        assert gas.gasPressure + DATUM == pytest.approx(
+            np.interp(density, *zip(*[(rho, p) for p, rho in table])), rel=ROUND_OFF
+        )
     assert gas.nEvents > 0
 
 
 def test_endOfTheTableIsNamed(rigid):
-    gas = rigid("settled", gasPressure=10, gasControl="rate", gasRate=0.02, gasLaw="tabulated", gasTable=[(900.0, 2.0), (1100.0, 3.0)], pressureDatum=DATUM,
-                reservoirVolume=RESERVOIR)
+    rigid(
+        "settled",
+        gasPressure=10,
+        gasControl="rate",
+        gasRate=0.02,
+        gasLaw="tabulated",
+        gasTable=[(900.0, 2.0), (1100.0, 3.0)],
+        pressureDatum=DATUM,
+        reservoirVolume=RESERVOIR,
+    )
     O.dt = 1e-5
-    with pytest.raises(RuntimeError, match=r"at time t = .* s, iteration \d+: gasLaw = 'tabulated': density of the gas .* allowed: up to the last of the table, 3"):
+    with pytest.raises(
+        RuntimeError,
+        match=(
+            r"at time t = .* s, iteration \d+: gasLaw = 'tabulated': density of the gas .* allowed: up to the last of"
+            r" the table, 3"
+        ),
+    ):
         for _ in range(5000):
             O.step()
     with pytest.raises(RuntimeError, match="absolute pressure of the gas .* = 1150"):
-        rigid("settled", gasPressure=150, gasLaw="tabulated", gasTable=[(900.0, 2.0), (1100.0, 3.0)], pressureDatum=DATUM).prepare()
+        rigid(
+            "settled", gasPressure=150, gasLaw="tabulated", gasTable=[(900.0, 2.0), (1100.0, 3.0)], pressureDatum=DATUM
+        ).prepare()
 
 
 # --- gas that is cut off ----------------------------------------------------------------------------
@@ -181,7 +240,9 @@ def clustersOf(gas):
 
 
 def stirUntilCutOff(rigid, seed, **attributes):
-    """Loose grains, a third filled with gas, moved at random until a cluster without inlet is there; None where none comes."""
+    """Loose grains, a third filled with gas, moved at random until a cluster without inlet is there; None where none
+    comes.
+    """
     gas = rigid("loose", poreMode="triangle", remeshDisplacement=1e-6, invasionInterval=1, **{**IDEAL, **attributes})
     gas.gasPressure = 1e6
     O.run(16, True)  # a pore a step
@@ -207,7 +268,11 @@ def test_gasThatIsCutOffKeepsItsMass(rigid):
             continue
         found += 1
         before, mass = clustersOf(gas), massIn(gas)
-        product = {frozenset(m): sum(before[0]["gas"][c] for c in m) * (before[0]["pressure"][min(m)] + DATUM) for m, inlet in before[1] if not inlet}
+        product = {
+            frozenset(m): sum(before[0]["gas"][c] for c in m) * (before[0]["pressure"][min(m)] + DATUM)
+            for m, inlet in before[1]
+            if not inlet
+        }
         gas.remeshDisplacement = 1.0  # the same cells, squeezed
         gas.gasControl = "rate"
         for body in O.bodies:
@@ -238,8 +303,17 @@ def test_gasThatIsCutOffKeepsItsMass(rigid):
 def supplied(loadSample, **attributes):
     """The 60 fine grains under a rate that tears them open within 3000 steps."""
     loadSample(1e-6)
-    values = dict(gasControl="rate", gasRate=3e-5, reservoirVolume=3e-10, gasLaw="ideal", invasionInterval=20, minLevelSteps=20, maxLevelSteps=300,
-                  checkInvariants=True, historyInterval=10)
+    values = dict(
+        gasControl="rate",
+        gasRate=3e-5,
+        reservoirVolume=3e-10,
+        gasLaw="ideal",
+        invasionInterval=20,
+        minLevelSteps=20,
+        maxLevelSteps=300,
+        checkInvariants=True,
+        historyInterval=10,
+    )
     return injection.startInjection(120e3, 2e3, 250e3, pores=3, **{**values, **attributes})
 
 
@@ -274,7 +348,15 @@ def test_historyThinsItself(rigid):
 
 
 def test_levelsOfARateAreAnIncrementApart(rigid):
-    gas = rigid("settled", gasPressure=100, pressureIncrement=5, gasControl="rate", gasRate=2e-3, reservoirVolume=RESERVOIR, **IDEAL)
+    gas = rigid(
+        "settled",
+        gasPressure=100,
+        pressureIncrement=5,
+        gasControl="rate",
+        gasRate=2e-3,
+        reservoirVolume=RESERVOIR,
+        **IDEAL,
+    )
     O.dt = 1e-5
     O.run(3000, True)
     pressures = gas.levels()["pressure"]
@@ -287,7 +369,8 @@ def test_askingDoesNotChangeARunUnderARate(loadSample):
         for _ in range(30):
             O.run(50, True)
             if ask:
-                gas.volumes(), gas.cells(), gas.throats(), gas.fluidForces(), gas.gasLedger(), gas.history(), gas.risePerPeriod()
+                for question in ("volumes", "cells", "throats", "fluidForces", "gasLedger", "history", "risePerPeriod"):
+                    getattr(gas, question)()
         return [tuple(b.state.pos) for b in O.bodies], gas.events(), gas.gasPressure
 
     assert positions(True) == positions(False)
@@ -309,14 +392,30 @@ def test_risePerPeriodIsThatOfTheFirstSteps(loadSample):
 # --- what is refused ---------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name, good, bad", [
-    ("gasLaw", "ideal", "vanDerWaals"), ("gasMolarMass", 0.04, 0.0), ("gasTemperature", 280.0, -3.0), ("gasDeviation", 0.8, float("nan")),
-    ("pressureDatum", 2e5, float("inf")), ("gasControl", "rate", "volume"), ("pressureProgram", [3.0, 1.0], [3.0, float("nan")]),
-    ("gasRate", 1e-6, -1e-9), ("reservoirVolume", 1e-9, -1.0), ("historyInterval", 7, -1),
-    ("gasTable", [(1.0, 1.0), (2.0, 3.0)], [(1.0, 1.0), (2.0, 0.5)]), ("gasTable", [(1.0, 1.0), (2.0, 3.0)], [(-1.0, 1.0)])])
+@pytest.mark.parametrize(
+    "name, good, bad",
+    [
+        ("gasLaw", "ideal", "vanDerWaals"),
+        ("gasMolarMass", 0.04, 0.0),
+        ("gasTemperature", 280.0, -3.0),
+        ("gasDeviation", 0.8, float("nan")),
+        ("pressureDatum", 2e5, float("inf")),
+        ("gasControl", "rate", "volume"),
+        ("pressureProgram", [3.0, 1.0], [3.0, float("nan")]),
+        ("gasRate", 1e-6, -1e-9),
+        ("reservoirVolume", 1e-9, -1.0),
+        ("historyInterval", 7, -1),
+        ("gasTable", [(1.0, 1.0), (2.0, 3.0)], [(1.0, 1.0), (2.0, 0.5)]),
+        ("gasTable", [(1.0, 1.0), (2.0, 3.0)], [(-1.0, 1.0)]),
+    ],
+)
 def test_refusedAssignmentsChangeNothing(name, good, bad):
     gas = GasInvasionEngine()
-    value = lambda: [tuple(v) if name == "gasTable" else v for v in getattr(gas, name)] if isinstance(good, list) else getattr(gas, name)
+    value = lambda: (
+        [tuple(v) if name == "gasTable" else v for v in getattr(gas, name)]
+        if isinstance(good, list)
+        else getattr(gas, name)
+    )
     first = value()
     with pytest.raises(ValueError, match=f"{name}.* allowed:"):
         setattr(gas, name, bad)
@@ -328,15 +427,34 @@ def test_refusedAssignmentsChangeNothing(name, good, bad):
     gas.thickness = 3.0  # nothing is left of the refused value
 
 
-@pytest.mark.parametrize("values, message", [
-    (dict(gasControl="rate", gasRate=1e-6), "gasControl = 'rate', allowed: 'pressure' with gasLaw = 'incompressible': no pressure follows .* set gasLaw = 'ideal'"),
-    (dict(gasControl="reservoir", reservoirVolume=1.0), "gasControl = 'reservoir', allowed: 'pressure' with gasLaw = 'incompressible'"),
-    (dict(gasControl="reservoir", gasLaw="ideal"), "reservoirVolume .* = 0, allowed: > 0 with gasControl = 'reservoir'"),
-    (dict(gasLaw="tabulated"), "gasTable, pairs = 0, allowed: at least two"),
-    (dict(gasLaw="ideal", pressureDatum=0.0), "pressureDatum .* = 0, allowed: > -waterPressure"),
-    (dict(pressureProgram=[200.0]), "pressureIncrement .* = 0, allowed: > 0 with a pressureProgram"),
-    (dict(pressureProgram=[-5.0], pressureIncrement=1.0), "pressureProgram .* = -5, allowed: >= waterPressure"),
-    (dict(pressureProgram=[5.0], pressureIncrement=1.0, gasControl="rate", gasLaw="ideal"), "pressureProgram, points = 1, allowed: none with gasControl = 'rate'")])
+@pytest.mark.parametrize(
+    "values, message",
+    [
+        (
+            dict(gasControl="rate", gasRate=1e-6),
+            (
+                "gasControl = 'rate', allowed: 'pressure' with gasLaw = 'incompressible': no pressure follows .* set"
+                " gasLaw = 'ideal'"
+            ),
+        ),
+        (
+            dict(gasControl="reservoir", reservoirVolume=1.0),
+            "gasControl = 'reservoir', allowed: 'pressure' with gasLaw = 'incompressible'",
+        ),
+        (
+            dict(gasControl="reservoir", gasLaw="ideal"),
+            "reservoirVolume .* = 0, allowed: > 0 with gasControl = 'reservoir'",
+        ),
+        (dict(gasLaw="tabulated"), "gasTable, pairs = 0, allowed: at least two"),
+        (dict(gasLaw="ideal", pressureDatum=0.0), "pressureDatum .* = 0, allowed: > -waterPressure"),
+        (dict(pressureProgram=[200.0]), "pressureIncrement .* = 0, allowed: > 0 with a pressureProgram"),
+        (dict(pressureProgram=[-5.0], pressureIncrement=1.0), "pressureProgram .* = -5, allowed: >= waterPressure"),
+        (
+            dict(pressureProgram=[5.0], pressureIncrement=1.0, gasControl="rate", gasLaw="ideal"),
+            "pressureProgram, points = 1, allowed: none with gasControl = 'rate'",
+        ),
+    ],
+)
 def test_whatDoesNotGoTogetherIsRefusedAtTheStart(rigid, values, message):
     gas = rigid("settled", gasPressure=100, **values)
     with pytest.raises((ValueError, RuntimeError), match=message):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Grain size distributions: what is drawn follows them, and what is no distribution is refused by name."""
 
 import math
@@ -28,7 +29,8 @@ def rankOf(curve, radii):
     if curve is LOGNORMAL:
         low = NormalDist().cdf(-2)
         return (np.array([NormalDist(math.log(1e-4), 0.4).cdf(math.log(r)) for r in radii]) - low) / (1 - 2 * low)
-    # Mass over ln d is constant in a bin, so numbers go with the integral of d^-2 dln d, done here by sums over fine steps.
+    # Mass over ln d is constant in a bin, so numbers go with the integral of d^-2 dln d, done here by sums over fine
+    # steps.
     lnD = np.linspace(math.log(5e-5), math.log(5e-4), 400_001)
     middle = np.exp(0.5 * (lnD[1:] + lnD[:-1]))
     edges, percent = np.array(SIEVE.diameter), np.array(SIEVE.passing)
@@ -76,10 +78,15 @@ def test_eachStratumHoldsOneGrain(curve, count):
 
 
 @pytest.mark.parametrize("count", [11, 301])
-@pytest.mark.parametrize("curve, median, width", [(UNIFORM, 2e-3, lambda share: 2e-3 * share),
-                                                  # dr = r spread dz, dz = 0.954 du / phi(0) near the median; strata of 11 grains are
-                                                  # narrow enough that the density falls by less than 1 % within them.
-                                                  (LOGNORMAL, 1e-4, lambda share: 1e-4 * 0.4 * 0.954 * math.sqrt(2 * math.pi) * share * 1.03)])
+@pytest.mark.parametrize(
+    "curve, median, width",
+    [
+        (UNIFORM, 2e-3, lambda share: 2e-3 * share),
+        # dr = r spread dz, dz = 0.954 du / phi(0) near the median; strata of 11 grains are
+        # narrow enough that the density falls by less than 1 % within them.
+        (LOGNORMAL, 1e-4, lambda share: 1e-4 * 0.4 * 0.954 * math.sqrt(2 * math.pi) * share * 1.03),
+    ],
+)
 def test_median(curve, median, width, count):
     # With an odd number the median grain is in the stratum whose middle is the median: half a stratum off at most.
     for seed in range(5):
@@ -88,10 +95,10 @@ def test_median(curve, median, width, count):
 
 @pytest.mark.parametrize("count", [300, 20_000])
 def test_sieveCurveIsMetByMass(count):
-    # One grain in each stratum of numbers. Over the strata below a diameter d, grain's mass and stratum's mean differ by less
-    # than the mass grows over each, together by less than m(d); the stratum that d cuts adds another m(d). The whole is
-    # right within m_max, which counts as much as the share below d. A bound, not an estimate: up
-    # to 16 % for 300 grains (drawn: 3 %), 0.25 % for 20 000 (0.05 %).
+    # One grain in each stratum of numbers. Over the strata below a diameter d, grain's mass and stratum's mean differ
+    # by less than the mass grows over each, together by less than m(d); the stratum that d cuts adds another m(d). The
+    # whole is right within m_max, which counts as much as the share below d. A bound, not an estimate: up to 16 % for
+    # 300 grains (drawn: 3 %), 0.25 % for 20 000 (0.05 %).
     edges = np.geomspace(4e-5, 5e-4, 40)
     for seed in range(5):
         radii = draw(SIEVE, count, seed)
@@ -105,12 +112,16 @@ def test_sieveCurveIsMetByMass(count):
 
 def test_flatPartHoldsNoGrains():
     radii = draw(SIEVE, 5000)
-    assert not np.any((radii > 1.0000001e-4) & (radii < 1.4999999e-4)) and np.any(radii < 1e-4) and np.any(radii > 1.5e-4)
+    assert (
+        not np.any((radii > 1.0000001e-4) & (radii < 1.4999999e-4)) and np.any(radii < 1e-4) and np.any(radii > 1.5e-4)
+    )
 
 
 def test_passingByHand():
     # Masses 1, 4, 9 of 14; a grain passes a sieve of its own diameter.
-    np.testing.assert_allclose(grading.passing([3, 1, 2], [1.9, 2, 3.9, 4, 6, 9]), [0, 100 / 14, 100 / 14, 500 / 14, 100, 100], rtol=1e-14)
+    np.testing.assert_allclose(
+        grading.passing([3, 1, 2], [1.9, 2, 3.9, 4, 6, 9]), [0, 100 / 14, 100 / 14, 500 / 14, 100, 100], rtol=1e-14
+    )
 
 
 @GRADINGS
@@ -157,9 +168,21 @@ MONOTONE = "allowed: larger diameters, percentages that do not fall (a sieve cur
 RANGE = "allowed: diameter > 0, 0 to 100 %"
 ENDS = "allowed: from 0 % (add the diameter of the finest grain) to 100 % (add that of the coarsest)"
 BAD_CURVES = [
-    ((1e-4, 2e-4, 3e-4), (0, 60, 50), f"sieve curve, entry 3: diameter 0.0003 m after 0.0002 m, passing 50 % after 60 %; {MONOTONE}"),
-    ((1e-4, 3e-4, 2e-4), (0, 60, 100), f"sieve curve, entry 3: diameter 0.0002 m after 0.0003 m, passing 100 % after 60 %; {MONOTONE}"),
-    ((1e-4, 1e-4), (0, 100), f"sieve curve, entry 2: diameter 0.0001 m after 0.0001 m, passing 100 % after 0 %; {MONOTONE}"),
+    (
+        (1e-4, 2e-4, 3e-4),
+        (0, 60, 50),
+        f"sieve curve, entry 3: diameter 0.0003 m after 0.0002 m, passing 50 % after 60 %; {MONOTONE}",
+    ),
+    (
+        (1e-4, 3e-4, 2e-4),
+        (0, 60, 100),
+        f"sieve curve, entry 3: diameter 0.0002 m after 0.0003 m, passing 100 % after 60 %; {MONOTONE}",
+    ),
+    (
+        (1e-4, 1e-4),
+        (0, 100),
+        f"sieve curve, entry 2: diameter 0.0001 m after 0.0001 m, passing 100 % after 0 %; {MONOTONE}",
+    ),
     ((-1e-4, 2e-4), (0, 100), f"sieve curve, entry 1: diameter -0.0001 m, passing 0 %; {RANGE}"),
     ((0, 2e-4), (0, 100), f"sieve curve, entry 1: diameter 0 m, passing 0 %; {RANGE}"),
     ((1e-4, math.inf), (0, 100), f"sieve curve, entry 2: diameter inf m, passing 100 %; {RANGE}"),
@@ -189,12 +212,18 @@ def write(path, text):
 
 
 def test_sieveFile(tmp_path):
-    path = write(tmp_path / "curve.csv", "# silt, sieved by hand\n diameter , laboratory, passing \n5e-5,a,0\n\n1e-4,b,20\n# coarse\n5e-4,c,100\n")
+    path = write(
+        tmp_path / "curve.csv",
+        "# silt, sieved by hand\n diameter , laboratory, passing \n5e-5,a,0\n\n1e-4,b,20\n# coarse\n5e-4,c,100\n",
+    )
     assert grading.readSieve(path) == grading.Sieve((5e-5, 1e-4, 5e-4), (0, 20, 100))
 
 
-BAD_FILES = [(diameter, passing, message) for diameter, passing, message in BAD_CURVES
-             if len(diameter) == len(passing) > 1 and RANGE not in message]
+BAD_FILES = [
+    (diameter, passing, message)
+    for diameter, passing, message in BAD_CURVES
+    if len(diameter) == len(passing) > 1 and RANGE not in message
+]
 
 
 @pytest.mark.parametrize("diameter, passing, message", BAD_FILES)
@@ -206,25 +235,47 @@ def test_badCurvesInFilesAreRefusedByLine(tmp_path, diameter, passing, message):
     refused(f"{path}{f', line {int(entry) + 3}' if entry else ''}: {text}", grading.readSieve, path)
 
 
-@pytest.mark.parametrize("text, message", [
-    ("diameter,passing\n1e-4,0\n2e-4,many\n", "line 3: passing = 'many', allowed: a finite number >= 0 and <= 100 [%]"),
-    ("diameter,passing\n1e-4,0\n2e-4,101\n", "line 3: passing = '101', allowed: a finite number >= 0 and <= 100 [%]"),
-    ("diameter,passing\n1e-4,-1\n2e-4,100\n", "line 2: passing = '-1', allowed: a finite number >= 0 and <= 100 [%]"),
-    ("passing;d [mm]\n0;0\n100;0,2\n", "line 2: d [mm] = '0', allowed: a finite number > 0"),
-    ("passing;d [mm]\n0;0,1\n100;inf\n", "line 3: d [mm] = 'inf', allowed: a finite number > 0"),
-    ("diameter,passing\n1e-4,0\n2e-4\n",
-     "line 3: 1 field (2e-4), allowed: 2, one for each column of line 1 (diameter | passing)"),
-    ("diameter,passing\n1e-4,0\n,100\n", "line 3: diameter = '', allowed: a finite number > 0"),
-    ("diameter,passing,diameter\n1e-4,0,1e-4\n",
-     "line 1: the columns 'diameter' and 'diameter' both give diameter; allowed: one")])
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        (
+            "diameter,passing\n1e-4,0\n2e-4,many\n",
+            "line 3: passing = 'many', allowed: a finite number >= 0 and <= 100 [%]",
+        ),
+        (
+            "diameter,passing\n1e-4,0\n2e-4,101\n",
+            "line 3: passing = '101', allowed: a finite number >= 0 and <= 100 [%]",
+        ),
+        (
+            "diameter,passing\n1e-4,-1\n2e-4,100\n",
+            "line 2: passing = '-1', allowed: a finite number >= 0 and <= 100 [%]",
+        ),
+        ("passing;d [mm]\n0;0\n100;0,2\n", "line 2: d [mm] = '0', allowed: a finite number > 0"),
+        ("passing;d [mm]\n0;0,1\n100;inf\n", "line 3: d [mm] = 'inf', allowed: a finite number > 0"),
+        (
+            "diameter,passing\n1e-4,0\n2e-4\n",
+            "line 3: 1 field (2e-4), allowed: 2, one for each column of line 1 (diameter | passing)",
+        ),
+        ("diameter,passing\n1e-4,0\n,100\n", "line 3: diameter = '', allowed: a finite number > 0"),
+        (
+            "diameter,passing,diameter\n1e-4,0,1e-4\n",
+            "line 1: the columns 'diameter' and 'diameter' both give diameter; allowed: one",
+        ),
+    ],
+)
 def test_badFieldsAreRefusedByLineAndColumn(tmp_path, text, message):
     path = write(tmp_path / "curve.csv", text)
     refused(f"{path}, {message}", grading.readSieve, path)
 
 
-@pytest.mark.parametrize("text", ["diameter [mm];passing [%]\n0,05;0\n0,1;20\n0,5;100\n",
-                                  "# d [um]\tpassing [-]\n50\t0\n100\t0.2\n500\t1\n",
-                                  "Passing (%) Radius (mm)\n0 0.025\n20 0.05\n100 0.25\n"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "diameter [mm];passing [%]\n0,05;0\n0,1;20\n0,5;100\n",
+        "# d [um]\tpassing [-]\n50\t0\n100\t0.2\n500\t1\n",
+        "Passing (%) Radius (mm)\n0 0.025\n20 0.05\n100 0.25\n",
+    ],
+)
 def test_sieveFilesInOtherUnits(tmp_path, text):
     assert grading.readSieve(write(tmp_path / "curve.csv", text)) == grading.Sieve((5e-5, 1e-4, 5e-4), (0, 20, 100))
 

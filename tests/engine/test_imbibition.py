@@ -1,7 +1,10 @@
-"""Imbibition, snap-off and trapped gas in packings that stand still, against an oracle that is written on the grains alone.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Imbibition, snap-off and trapped gas in packings that stand still, against an oracle that is written on the grains
+alone.
 
-The oracle computes thresholds from the disks by formulas of its own (a root finder for the widest place of a cell), and looks at everything
-again after each event. Its order of events is not compared: at one pressure the state that they lead to is.
+The oracle computes thresholds from the disks by formulas of its own (a root finder for the widest place of a cell), and
+looks at everything again after each event. Its order of events is not compared: at one pressure the state that they
+lead to is.
 """
 
 import math
@@ -11,7 +14,7 @@ import pytest
 from scipy.optimize import brentq, fsolve
 from yade import O
 
-from capfrac import cycles, sediment
+from capfrac import cycles
 
 GAMMA = 0.05
 
@@ -27,12 +30,22 @@ class Oracle:
     def __init__(self, gas, snapOff):
         cells, throats = gas.cells(), gas.throats()
         self.vertices, self.polygon = cells["vertices"], cells["polygon"]
-        self.disks = {b.id: (np.array(tuple(b.state.pos)[:2]), b.shape.radius) for b in O.bodies if hasattr(b.shape, "radius")}
+        self.disks = {
+            b.id: (np.array(tuple(b.state.pos)[:2]), b.shape.radius) for b in O.bodies if hasattr(b.shape, "radius")
+        }
         self.walls = {b.id: (b.shape.axis, b.state.pos[b.shape.axis]) for b in list(O.bodies)[:4]}
-        self.edges = [(k, left, right, isOpen) for k, ((left, right), isOpen) in enumerate(zip(throats["cells"], throats["open"])) if left >= 0 and right >= 0]
+        self.edges = [
+            (k, left, right, isOpen)
+            for k, ((left, right), isOpen) in enumerate(zip(throats["cells"], throats["open"]))
+            if left >= 0 and right >= 0
+        ]
         self.inscribed = []
         for (a, b), gap in zip(throats["ids"], throats["gap"]):
-            r, d = (self.disks[max(a, b)][1], 2 * gap) if min(a, b) in self.walls else (0.5 * (self.disks[a][1] + self.disks[b][1]), gap)
+            r, d = (
+                (self.disks[max(a, b)][1], 2 * gap)
+                if min(a, b) in self.walls
+                else (0.5 * (self.disks[a][1] + self.disks[b][1]), gap)
+            )
             self.inscribed.append(passing(r + 0.5 * d, r))
         self.snapOff = snapOff
         self.entry = [2 * GAMMA / r for r in self.inscribed]
@@ -45,7 +58,9 @@ class Oracle:
 
     def domains(self):
         label = list(range(len(self.vertices)))
-        for changed in iter(lambda: self.joined and any([self.join(label, a, b) for _, a, b, isOpen in self.edges if isOpen]), False):
+        for changed in iter(
+            lambda: self.joined and any([self.join(label, a, b) for _, a, b, isOpen in self.edges if isOpen]), False
+        ):
             pass
         return label
 
@@ -63,7 +78,11 @@ class Oracle:
         r = np.mean([radius for _, radius in grains])
         if len(grains) == 3:
             start = np.append(np.mean([x for x, _ in grains], axis=0), 0.3 * r)
-            x, y, s = fsolve(lambda u: [math.hypot(u[0] - c[0], u[1] - c[1]) - u[2] - radius for c, radius in grains], start, xtol=1e-12)
+            x, y, s = fsolve(
+                lambda u: [math.hypot(u[0] - c[0], u[1] - c[1]) - u[2] - radius for c, radius in grains],
+                start,
+                xtol=1e-12,
+            )
             ring = [np.array(p) for p in self.polygon[cell]]
             if any(np.cross(ring[(k + 1) % 3] - ring[k], (x, y) - ring[k]) < 0 for k in range(3)):
                 return 0
@@ -95,7 +114,12 @@ class Oracle:
     def hanging(self):
         found, frontier = set(self.inlet), True
         while frontier:
-            frontier = {y for k, a, b, _ in self.edges for x, y in ((a, b), (b, a)) if x in found and y in self.gas and y not in found and k not in self.snapped}
+            frontier = {
+                y
+                for k, a, b, _ in self.edges
+                for x, y in ((a, b), (b, a))
+                if x in found and y in self.gas and y not in found and k not in self.snapped
+            }
             found |= frontier
         return found
 
@@ -117,10 +141,19 @@ class Oracle:
                         moved = True
             if moved:
                 continue
-            events = [(self.entry[k] / 2, 0, k) for k, a, b in self.throats() if self.snapOff and a in free and b in free and k not in self.snapped]
-            wet = {c for k, a, b in self.throats() for x, c in ((a, b), (b, a)) if x not in self.gas or k in self.snapped} | self.atOutlet
+            events = [
+                (self.entry[k] / 2, 0, k)
+                for k, a, b in self.throats()
+                if self.snapOff and a in free and b in free and k not in self.snapped
+            ]
+            wet = {
+                c for k, a, b in self.throats() for x, c in ((a, b), (b, a)) if x not in self.gas or k in self.snapped
+            } | self.atOutlet
             wet = {self.domainOf[c] for c in wet}
-            events += [(self.refill[d], 1, d) for d in {self.domainOf[c] for c in free} & wet - {self.domainOf[i] for i in self.inlet}]
+            events += [
+                (self.refill[d], 1, d)
+                for d in {self.domainOf[c] for c in free} & wet - {self.domainOf[i] for i in self.inlet}
+            ]
             best = max(events, default=(0, 0, 0))
             if best[0] > pressure:
                 moved = True
@@ -132,13 +165,26 @@ class Oracle:
         self.cutOff = self.gas - self.hanging()
 
 
-@pytest.mark.parametrize("packing, poreMode, snapOff", [("settled", "domain", False), ("settled", "domain", True), ("loose", "triangle", True), ("settled", "triangle", True)])
+@pytest.mark.parametrize(
+    "packing, poreMode, snapOff",
+    [
+        ("settled", "domain", False),
+        ("settled", "domain", True),
+        ("loose", "triangle", True),
+        ("settled", "triangle", True),
+    ],
+)
 def test_cyclesAreThoseOfTheOracle(rigid, packing, poreMode, snapOff):
     gas = rigid(packing, poreMode=poreMode, imbibition=True, snapOff=snapOff)
     oracle = Oracle(gas, snapOff)
     top = 1.01 * max(oracle.entry)
     trapped = 0
-    for pressure in [*np.linspace(0.3 * top, top, 8), *np.linspace(top, 0, 20), *np.linspace(0, top, 12), *np.linspace(top, 0, 6)]:
+    for pressure in [
+        *np.linspace(0.3 * top, top, 8),
+        *np.linspace(top, 0, 20),
+        *np.linspace(0, top, 12),
+        *np.linspace(top, 0, 6),
+    ]:
         gas.gasPressure = pressure
         O.step()
         oracle.go(pressure)
@@ -148,7 +194,9 @@ def test_cyclesAreThoseOfTheOracle(rigid, packing, poreMode, snapOff):
         trapped += len(oracle.cutOff)
         assert gas.volumes()["error"] < 1e-13
     kinds = gas.imbibitionEvents()["kind"]
-    assert kinds.count("refill") > 20 and (not snapOff or (trapped and kinds.count("snapOff") and kinds.count("reopening")))
+    assert kinds.count("refill") > 20 and (
+        not snapOff or (trapped and kinds.count("snapOff") and kinds.count("reopening"))
+    )
 
 
 def test_withoutImbibitionNothingComesBack(rigid):
@@ -203,11 +251,16 @@ def test_trappedGasKeepsItsAmountAndPressure(rigid):
     assert len(amounts) > 5 and len({p for _, p in amounts.values()}) > 1
 
 
-@pytest.mark.parametrize("attributes, message", [
-    (dict(snapOff=True, contactAngle=0.8), r"contactAngle \[rad\] = 0.8, allowed: < pi/4 with snapOff"),
-    (dict(filmConductance=-1.0, trapping=True), r"filmConductance \[m³/\(Pa·s\)\] = -1, allowed: finite and >= 0"),
-    (dict(filmConductance=1e-12), "filmConductance .* allowed: 0 without trapping"),
-    (dict(fluidDensity=-1.0), r"fluidDensity \[kg/m³\] = -1"), (dict(gravity=(0, float("nan"))), r"gravity \[m/s²\] = nan")])
+@pytest.mark.parametrize(
+    "attributes, message",
+    [
+        (dict(snapOff=True, contactAngle=0.8), r"contactAngle \[rad\] = 0.8, allowed: < pi/4 with snapOff"),
+        (dict(filmConductance=-1.0, trapping=True), r"filmConductance \[m³/\(Pa·s\)\] = -1, allowed: finite and >= 0"),
+        (dict(filmConductance=1e-12), "filmConductance .* allowed: 0 without trapping"),
+        (dict(fluidDensity=-1.0), r"fluidDensity \[kg/m³\] = -1"),
+        (dict(gravity=(0, float("nan"))), r"gravity \[m/s²\] = nan"),
+    ],
+)
 def test_impossibleValuesAreRefused(attributes, message):
     from yade.wrapper import GasInvasionEngine
 
@@ -232,11 +285,16 @@ def test_refusedAssignmentsChangeNothing():
 
 
 def test_waterNeedsAWayOut(handScene):
-    from yade.wrapper import ForceResetter, GasInvasionEngine
+    from yade.wrapper import GasInvasionEngine
 
     handScene([(1e-3, 1e-3, 1e-3)], (0, 2.2e-3, 0, 2.2e-3))
-    with pytest.raises(ValueError, match="no outlet for the water: outletWall = 'bottom', allowed: a wall with a pore that is not the inlet's"):
-        GasInvasionEngine(inletWall="bottom", outletWall="bottom", inletFrom=0, inletTo=2.2e-3, imbibition=True).prepare()
+    with pytest.raises(
+        ValueError,
+        match="no outlet for the water: outletWall = 'bottom', allowed: a wall with a pore that is not the inlet's",
+    ):
+        GasInvasionEngine(
+            inletWall="bottom", outletWall="bottom", inletFrom=0, inletTo=2.2e-3, imbibition=True
+        ).prepare()
 
 
 def test_cycleInGrainsThatMove(loadSample):
@@ -244,16 +302,35 @@ def test_cycleInGrainsThatMove(loadSample):
     from capfrac import injection
 
     loadSample()
-    gas = injection.startInjection(start=100, increment=0, max=101, pores=2, imbibition=True, snapOff=True, checkInvariants=True, minLevelSteps=10, maxLevelSteps=2000)
+    gas = injection.startInjection(
+        start=100,
+        increment=0,
+        max=101,
+        pores=2,
+        imbibition=True,
+        snapOff=True,
+        checkInvariants=True,
+        minLevelSteps=10,
+        maxLevelSteps=2000,
+    )
     errors = []
-    table = cycles.pressureCycle(gas, [("drainage", 230), ("imbibition", 0), ("second drainage", 230)], increment=25,
-                                 progress=lambda *_: errors.append(gas.volumes()["error"]))
+    table = cycles.pressureCycle(
+        gas,
+        [("drainage", 230), ("imbibition", 0), ("second drainage", 230)],
+        increment=25,
+        progress=lambda *_: errors.append(gas.volumes()["error"]),
+    )
     assert max(errors) < 1e-10
     found = cycles.measure(table)
-    assert found["maximum"] > 0.9 and found["area"] > 0 and 0 <= found["trapped"] <= found["residual"] < found["maximum"]
+    assert (
+        found["maximum"] > 0.9 and found["area"] > 0 and 0 <= found["trapped"] <= found["residual"] < found["maximum"]
+    )
 
 
-@pytest.mark.parametrize("arguments, message", [((dict(increment=0),), "increment = 0 Pa"), ((dict(stages=[("down", -1)]),), "a stage ends at -1 Pa")])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [((dict(increment=0),), "increment = 0 Pa"), ((dict(stages=[("down", -1)]),), "a stage ends at -1 Pa")],
+)
 def test_impossibleCyclesAreRefused(rigid, arguments, message):
     from capfrac.errors import CaseError
 

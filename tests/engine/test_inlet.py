@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The gas inlet: some pores of a wall, a stretch of it, or pores that hold given points; its width is on record."""
 
 import numpy as np
@@ -19,7 +20,7 @@ def test_inletAtTheOutletHasBrokenThrough(rigid):
 @pytest.mark.parametrize("wall, axis", [("bottom", 0), ("top", 0), ("left", 1), ("right", 1)])
 def test_inletOfSomePores(rigid, wall, axis):
     gas = rigid("settled", inletTo=1, inletWall=wall)
-    middle = 0.5 * sum(b.state.pos[axis] for b in list(O.bodies)[2 * axis:2 * axis + 2])
+    middle = 0.5 * sum(b.state.pos[axis] for b in list(O.bodies)[2 * axis : 2 * axis + 2])
     gas.inletFrom, gas.inletTo = gas.inletStretch(3, middle)
     gas.prepare()
     assert gas.inletPores == 3
@@ -59,7 +60,9 @@ def test_inletTakesPoresByTheirMiddle(rigid):
             gas.prepare()
             assert gas.inletPores == taken and gas.inletWidth == pytest.approx(end - begin, rel=1e-12)
         else:
-            with pytest.raises(ValueError, match="no inlet: no pore of the bottom wall has its middle between inletFrom and inletTo"):
+            with pytest.raises(
+                ValueError, match="no inlet: no pore of the bottom wall has its middle between inletFrom and inletTo"
+            ):
                 gas.prepare()
 
 
@@ -95,7 +98,13 @@ def test_aPointInAGrainIsNoInlet(rigid):
     grain = next(body for body in O.bodies if hasattr(body.shape, "radius"))
     at = (grain.state.pos[0], grain.state.pos[1])
     gas.inletPoints = [at]
-    with pytest.raises(ValueError, match=rf"inletPoints \[m\] = .*, allowed: a point in the void, at least one; this one lies in body #{grain.id}, of radius"):
+    with pytest.raises(
+        ValueError,
+        match=(
+            rf"inletPoints \[m\] = .*, allowed: a point in the void, at least one; this one lies in body #{grain.id},"
+            r" of radius"
+        ),
+    ):
         gas.prepare()
 
 
@@ -104,8 +113,18 @@ def test_middleFindsTheVoidBetweenItsPoints(handScene):
     turns = np.arange(8) * np.pi / 4
     around = [(3 * R * np.cos(turn), 3 * R * np.sin(turn), 0.4 * R) for turn in turns]
     handScene([(0, 0, 2.5 * R), *around], (-4 * R, 4 * R, -4 * R, 4 * R))
-    gas = casescene.startGas(resolveCase({
-        "grains": {"rMin": 0.4 * R, "rMax": 2.5 * R}, "stress": {"vertical": 10e3, "horizontal": 8e3},
-        "inlet": {"middle": 3 * R}, "network": {"poreMode": "triangle"}, "ramp": {"start": 1, "increment": 1, "max": 2}}))
-    assert list(gas.inletPoints[0]) == [0, 0] and max(np.hypot(*point) for point in gas.inletPoints) <= 3 * R * (1 + 1e-15)
+    gas = casescene.startGas(
+        resolveCase(
+            {
+                "grains": {"rMin": 0.4 * R, "rMax": 2.5 * R},
+                "stress": {"vertical": 10e3, "horizontal": 8e3},
+                "inlet": {"middle": 3 * R},
+                "network": {"poreMode": "triangle"},
+                "ramp": {"start": 1, "increment": 1, "max": 2},
+            }
+        )
+    )
+    assert list(gas.inletPoints[0]) == [0, 0] and max(np.hypot(*point) for point in gas.inletPoints) <= 3 * R * (
+        1 + 1e-15
+    )
     assert 0 < gas.inletPores < len(gas.cells()["phase"])

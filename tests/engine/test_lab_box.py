@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The servo-controlled box against a lattice whose stiffness is known, and against what it is asked to keep."""
 
 import math
@@ -42,15 +43,19 @@ def test_uniaxialModulusOfALattice():
     box.record("virgin")
     box.strainTo(0.01)
     rows = box.rows
-    # F = K d in each of n + 1 contacts, strain = (n + 1) d / H: M = K H / ((n + 1) 2 r), the columns W/(2 r) side by side on
-    # a box a little narrower than they were. Waves of the drive at an inertial number of 5e-4 are of the order of
-    # I sqrt(M/sigma) = 1.5 % of the preload at first, 1.5e-3 of the stress at the end.
+    # F = K d in each of n + 1 contacts, strain = (n + 1) d / H: M = K H / ((n + 1) 2 r), the columns W/(2 r) side by
+    # side on a box a little narrower than they were. Waves of the drive at an inertial number of 5e-4 are of the order
+    # of I sqrt(M/sigma) = 1.5 % of the preload at first, 1.5e-3 of the stress at the end.
     height = O.bodies[3].state.pos[1] / (1 - rows["strain [-]"][-1])
     narrowed = 6 * 2 * R / box.lengths()[0]
-    assert slope(rows["strain [-]"], rows["stressV [Pa]"]) == pytest.approx(narrowed * K * height / (9 * 2 * R), rel=2e-3)
+    assert slope(rows["strain [-]"], rows["stressV [Pa]"]) == pytest.approx(
+        narrowed * K * height / (9 * 2 * R), rel=2e-3
+    )
     # A square lattice without friction does not spread: its rows press on the side walls as before, and the walls are
     # less high.
-    np.testing.assert_allclose(np.array(rows["stressH [Pa]"]) * (1 - np.array(rows["strain [-]"])), rows["stressH [Pa]"][0], rtol=1e-3)
+    np.testing.assert_allclose(
+        np.array(rows["stressH [Pa]"]) * (1 - np.array(rows["strain [-]"])), rows["stressH [Pa]"][0], rtol=1e-3
+    )
     assert rows["lateralStrain [-]"] == [0.0] * len(rows["strain [-]"])
 
 
@@ -98,7 +103,9 @@ def test_isotropicAndK0(loadSample):
     box.setReference()
     box.mode("isotropic")
     box.stressTo([20e3, 40e3])
-    np.testing.assert_allclose(box.rows["stressV [Pa]"], [20e3, 40e3], rtol=2 * SERVO_TOLERANCE)  # top 0.5 %, bottom follows at rest
+    np.testing.assert_allclose(
+        box.rows["stressV [Pa]"], [20e3, 40e3], rtol=2 * SERVO_TOLERANCE
+    )  # top 0.5 %, bottom follows at rest
     np.testing.assert_allclose(box.rows["stressH [Pa]"], [20e3, 40e3], rtol=SERVO_TOLERANCE)
     width = box.lengths()[0]
     box.mode("k0")
@@ -112,22 +119,32 @@ def test_voidRatios():
     box = confined()
     box.mode("uniaxial")
     row = box.record("virgin")
-    # A square lattice of disks, touching: box (2 r)^2 over pi r^2 less 1; overlaps of 2e-3 r at the preload make it smaller,
-    # by 4e-3 of the box, and count once in the true void ratio (their area, r^2 (2e-3)^1.5, is 1e-4 of a disk).
+    # A square lattice of disks, touching: box (2 r)^2 over pi r^2 less 1; overlaps of 2e-3 r at the preload make it
+    # smaller, by 4e-3 of the box, and count once in the true void ratio (their area, r^2 (2e-3)^1.5, is 1e-4 of a
+    # disk).
     assert row["voidRatio [-]"] == pytest.approx(4 / math.pi - 1, abs=6e-3)
     assert row["trueVoidRatio [-]"] == pytest.approx(row["voidRatio [-]"], abs=1e-3)
     assert row["trueVoidRatio [-]"] >= row["voidRatio [-]"]
 
 
-@pytest.mark.parametrize("call, message", [
-    (lambda box: box.mode("triaxial"), f"mode = 'triaxial', allowed: {', '.join(MODES)}"),
-    (lambda box: box.mode("biaxial"), "stressH = None Pa with mode 'biaxial', allowed: > 0"),
-    (lambda box: box.mode("meanStress", meanStress=-1.0), "meanStress = -1.0 Pa with mode 'meanStress', allowed: > 0"),
-    (lambda box: box.strainTo(0.1), "the box is in mode None, allowed here: uniaxial, biaxial, meanStress; call mode() first"),
-    (lambda box: (box.mode("uniaxial"), box.strainTo(0.9)), "strain = 0.9, allowed: up to 0.4"),
-    (lambda box: (box.mode("uniaxial"), box.strainTo(math.nan)), "strain = nan, allowed: up to"),
-    (lambda box: (box.mode("k0"), box.stressTo([-5.0])), "target stress = -5.0 Pa, allowed: > 0"),
-])
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda box: box.mode("triaxial"), f"mode = 'triaxial', allowed: {', '.join(MODES)}"),
+        (lambda box: box.mode("biaxial"), "stressH = None Pa with mode 'biaxial', allowed: > 0"),
+        (
+            lambda box: box.mode("meanStress", meanStress=-1.0),
+            "meanStress = -1.0 Pa with mode 'meanStress', allowed: > 0",
+        ),
+        (
+            lambda box: box.strainTo(0.1),
+            "the box is in mode None, allowed here: uniaxial, biaxial, meanStress; call mode() first",
+        ),
+        (lambda box: (box.mode("uniaxial"), box.strainTo(0.9)), "strain = 0.9, allowed: up to 0.4"),
+        (lambda box: (box.mode("uniaxial"), box.strainTo(math.nan)), "strain = nan, allowed: up to"),
+        (lambda box: (box.mode("k0"), box.stressTo([-5.0])), "target stress = -5.0 Pa, allowed: > 0"),
+    ],
+)
 def test_impossibleRequests(call, message):
     box = confined()
     height = box.lengths()

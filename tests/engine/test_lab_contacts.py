@@ -1,8 +1,11 @@
-"""The contact law on two grains against Eqs. 1 and 2: capfrac.lab.contacts, and against formulas written out here.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The contact law on two grains against Eqs. 1 and 2: capfrac.verification.contacts, and against formulas written out
+here.
 
-An overlap U_n is the difference of r1 + r2 and a distance. The second grain's place, the difference of the places, its square and
-root, and r1 + r2 are rounded by half an epsilon of r1 + r2 each at most: together less than 3 epsilon (r1 + r2). Slips
-and shear forces add up some fifty increments, each of them and each sum rounded to 1e-16 of the largest: 1e-14.
+An overlap U_n is the difference of r1 + r2 and a distance. The second grain's place, the difference of the places, its
+square and root, and r1 + r2 are rounded by half an epsilon of r1 + r2 each at most: together less than 3 epsilon (r1 +
+r2). Slips and shear forces add up some fifty increments, each of them and each sum rounded to 1e-16 of the largest:
+1e-14.
 """
 
 import math
@@ -14,8 +17,8 @@ from yade import O
 
 from capfrac import sediment
 from capfrac.errors import CaseError, SceneError
-from capfrac.lab import contacts
 from capfrac.lab.run import LabRun
+from capfrac.verification import contacts
 
 EPSILON = sys.float_info.epsilon
 R1, R2 = 1e-3, 1.7e-3
@@ -23,7 +26,9 @@ PATHS = ["loading", "slip", "tension", "shear", "recontact"]
 
 
 def grains(**values):
-    return sediment.Sediment(**{"rMin": R1, "rMax": R2, "normalStiffness": 2e7, "shearStiffness": 7e6, "friction": 0.4, **values})
+    return sediment.Sediment(
+        **{"rMin": R1, "rMax": R2, "normalStiffness": 2e7, "shearStiffness": 7e6, "friction": 0.4, **values}
+    )
 
 
 def roundOff(sample, overlap):
@@ -31,8 +36,17 @@ def roundOff(sample, overlap):
     return 3 * EPSILON * (sample.rMin + sample.rMax) / overlap + 1e-14
 
 
-SAMPLES = [{}, {"rMin": 1e-6, "rMax": 1e-6}, {"rMin": 1.0, "rMax": 3.0}, {"shearStiffness": 2e7}, {"shearStiffness": 0.0}, {"friction": 0.0}, {"friction": 1.5},
-           {"normalStiffness": 1e5, "shearStiffness": 1e6}, {"density": 1.0}]
+SAMPLES = [
+    {},
+    {"rMin": 1e-6, "rMax": 1e-6},
+    {"rMin": 1.0, "rMax": 3.0},
+    {"shearStiffness": 2e7},
+    {"shearStiffness": 0.0},
+    {"friction": 0.0},
+    {"friction": 1.5},
+    {"normalStiffness": 1e5, "shearStiffness": 1e6},
+    {"density": 1.0},
+]
 
 
 @pytest.mark.parametrize("values", SAMPLES, ids=str)
@@ -58,14 +72,20 @@ def test_bondsBreakAtTheirStrength(values):
     for name in ("tension", "shear", "recontact"):
         found = result[name]
         if sample.shearStiffness == 0 and name != "tension":
-            assert math.isnan(found["brokeAt"]) and all(found["table"]["bonded"])  # there is no shear that could break it
+            assert math.isnan(found["brokeAt"]) and all(
+                found["table"]["bonded"]
+            )  # there is no shear that could break it
             continue
         assert found["borne"] == pytest.approx(found["strength"] * (1 - 1e-9), rel=1e-11), name
         assert found["brokeAt"] == pytest.approx(found["strength"] * (1 + 1e-9), rel=1e-11), name
         assert found["tensionAfterwards"] == 0, name
         # Eq. 2 after breakage: friction alone, and the path goes on until it is used up.
-        limit = 0 if name == "tension" else sample.friction * 0.2 * sample.normalStiffness * contacts.OVERLAP * sample.rMin
-        assert found["shearAfterwards"] == pytest.approx(limit, rel=roundOff(sample, 0.2 * contacts.OVERLAP * sample.rMin)), name
+        limit = (
+            0 if name == "tension" else sample.friction * 0.2 * sample.normalStiffness * contacts.OVERLAP * sample.rMin
+        )
+        assert found["shearAfterwards"] == pytest.approx(
+            limit, rel=roundOff(sample, 0.2 * contacts.OVERLAP * sample.rMin)
+        ), name
         bonded = found["table"]["bonded"]
         assert bonded == sorted(bonded, reverse=True)  # broken for good
         assert any(u < 0 for u in found["table"]["overlap [m]"]) or name == "shear"
@@ -120,16 +140,22 @@ def test_strengthTakesTheMeanRadius(r1, r2):
     for share, holds in ((1 - 1e-9, True), (1 + 1e-9, False)):
         pulled = contacts.drive(sample, [1e-3 * r1, -share * stretch], [0, 0], **strengths)
         assert pulled["bonded"] == [True, holds]
-        assert pulled["normalForce [N]"][1] == (pytest.approx(-0.3 * unit * share, rel=roundOff(sample, stretch)) if holds else 0)
+        assert pulled["normalForce [N]"][1] == (
+            pytest.approx(-0.3 * unit * share, rel=roundOff(sample, stretch)) if holds else 0
+        )
         sheared = contacts.drive(sample, [1e-3 * r1, 1e-3 * r1], [0, share * slip], **strengths)
         assert sheared["bonded"] == [True, holds]
         # Pressed by k_n r1 / 1000 only: friction would hold 0.02 of the unit, the bond holds 0.5.
-        assert sheared["shearForce [N]"][1] == pytest.approx((0.5 * share if holds else 0.2 * 0.1) * unit, rel=roundOff(sample, 1e-3 * r1))
+        assert sheared["shearForce [N]"][1] == pytest.approx(
+            (0.5 * share if holds else 0.2 * 0.1) * unit, rel=roundOff(sample, 1e-3 * r1)
+        )
 
 
 def test_bondHoldsShearInTension():
     sample = grains()
-    table = contacts.drive(sample, [1e-6, -1e-6, -1e-6], [0, 0, 1e-6], tensileStrength=50 / (R1 + R2), shearStrength=50 / (R1 + R2))
+    table = contacts.drive(
+        sample, [1e-6, -1e-6, -1e-6], [0, 0, 1e-6], tensileStrength=50 / (R1 + R2), shearStrength=50 / (R1 + R2)
+    )
     assert table["bonded"] == [True] * 3
     assert table["normalForce [N]"][2] == pytest.approx(-20, rel=roundOff(sample, 1e-6))
     assert table["shearForce [N]"][2] == pytest.approx(7, rel=1e-13)
@@ -147,18 +173,27 @@ def test_withoutCohesionThereIsNoTension():
 def test_brokenBondBearsNoTensionHoweverItBroke():
     sample = grains()
     strengths = {"tensileStrength": 50 / (R1 + R2), "shearStrength": 50 / (R1 + R2)}
-    for overlaps, slips in (([1e-6, -5e-6, 1e-6, 1e-5, -1e-7], [0] * 5), ([1e-6, 1e-6, 1e-5, -1e-7, -1e-5], [0, 1e-5, 1e-5, 1e-5, 1e-5])):
+    for overlaps, slips in (
+        ([1e-6, -5e-6, 1e-6, 1e-5, -1e-7], [0] * 5),
+        ([1e-6, 1e-6, 1e-5, -1e-7, -1e-5], [0, 1e-5, 1e-5, 1e-5, 1e-5]),
+    ):
         table = contacts.drive(sample, overlaps, slips, **strengths)
         assert table["bonded"] == [True] + [False] * 4
-        np.testing.assert_allclose(table["normalForce [N]"], 2e7 * np.maximum(overlaps, 0), rtol=0, atol=200 * roundOff(sample, 1e-5))
+        np.testing.assert_allclose(
+            table["normalForce [N]"], 2e7 * np.maximum(overlaps, 0), rtol=0, atol=200 * roundOff(sample, 1e-5)
+        )
 
 
 def test_partedContactForgetsItsShear():
     # 40 N of shear are lost when the grains part, and half of it when friction falls below it on the way.
     sample = grains()
     slip = 40 / 7e6
-    table = contacts.drive(sample, [1e-5, 1e-5, 2.5e-6, 1e-5, -1e-6, 1e-5, 1e-5], [0, slip, slip, slip, slip, slip, 2 * slip])
-    np.testing.assert_allclose(table["shearForce [N]"], [0, 40, 20, 20, 0, 0, 40], rtol=0, atol=40 * roundOff(sample, 2.5e-6))
+    table = contacts.drive(
+        sample, [1e-5, 1e-5, 2.5e-6, 1e-5, -1e-6, 1e-5, 1e-5], [0, slip, slip, slip, slip, slip, 2 * slip]
+    )
+    np.testing.assert_allclose(
+        table["shearForce [N]"], [0, 40, 20, 20, 0, 0, 40], rtol=0, atol=40 * roundOff(sample, 2.5e-6)
+    )
 
 
 # ---- the equations as a function of plain numbers
@@ -166,7 +201,9 @@ def test_partedContactForgetsItsShear():
 
 def test_equationsByHand():
     # k_n = 10, k_s = 4, mu = 0.5, phi_n = 3, phi_s = 2: bonded until the shear of 2.4; then friction 0.5 F_n.
-    normal, shear, bonded = contacts.equations([1, -0.3, 1, 1, 0.2, -0.1, 0.2], [0, 0, 0.5, 0.6, 0.6, 0.6, 0.7], 10, 4, 0.5, 3, 2)
+    normal, shear, bonded = contacts.equations(
+        [1, -0.3, 1, 1, 0.2, -0.1, 0.2], [0, 0, 0.5, 0.6, 0.6, 0.6, 0.7], 10, 4, 0.5, 3, 2
+    )
     assert normal == pytest.approx([10, -3, 10, 10, 2, 0, 2])
     assert shear == pytest.approx([0, 0, 2, 2.4, 1, 0, 0.4])
     assert bonded == [True] * 3 + [False] * 4
@@ -174,7 +211,9 @@ def test_equationsByHand():
     assert contacts.equations([1, -0.1], [0, 0], 10, 4, 0.5) == ([10, 0.0], [0, 0.0], [False, False])
 
 
-@pytest.mark.parametrize("path", [contacts.tension(1e-6, 2e-6), contacts.shear(1e-6, 2e-6, 1e-6), contacts.recontact(1e-6, 2e-6, 1e-6)])
+@pytest.mark.parametrize(
+    "path", [contacts.tension(1e-6, 2e-6), contacts.shear(1e-6, 2e-6, 1e-6), contacts.recontact(1e-6, 2e-6, 1e-6)]
+)
 def test_pathsHoldTheBracketOfTheStrength(path):
     overlaps, slips = path
     assert len(overlaps) == len(slips) and overlaps[0] > 0 and slips[0] == 0

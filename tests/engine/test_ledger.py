@@ -1,4 +1,6 @@
-"""Conservation on a sample that gas tears open: every litre of gas and water is booked, whatever the network goes through.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Conservation on a sample that gas tears open: every litre of gas and water is booked, whatever the network goes
+through.
 
 Grains of 1 um: cells are turned over, contacts open and close, the triangulation is mended many times. The engine's own
 checks of its invariants are on, so a throat that opens below its entry pressure ends the run here.
@@ -22,12 +24,16 @@ def fracturing(loadSample):
 
     def make(**attributes):
         loadSample(1e-6)
-        return injection.startInjection(START, STEP, 250e3, pores=3, checkInvariants=True, minLevelSteps=20, maxLevelSteps=300, **attributes)
+        return injection.startInjection(
+            START, STEP, 250e3, pores=3, checkInvariants=True, minLevelSteps=20, maxLevelSteps=300, **attributes
+        )
 
     return make
 
 
-@pytest.mark.parametrize("attributes", [{}, {"poreMode": "triangle", "trapping": True}, {"remeshDisplacement": 0.05, "mergeTolerance": 0.01}])
+@pytest.mark.parametrize(
+    "attributes", [{}, {"poreMode": "triangle", "trapping": True}, {"remeshDisplacement": 0.05, "mergeTolerance": 0.01}]
+)
 def test_gasAndWaterAreKept(fracturing, attributes):
     gas = fracturing(**attributes)
     initial = gas.volumes()["initialVoid"]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Grains that lost their contacts: they come to rest, unless something drives or holds them, and decide no measure."""
 
 import math
@@ -14,7 +15,8 @@ SPEED = 0.01
 
 @pytest.fixture
 def cage(handScene):
-    """A function (disks, damping, gravity, **attributes of the gas engine) -> their ids: free disks amid eight that stand still.
+    """A function (disks, damping, gravity, **attributes of the gas engine) -> their ids: free disks amid eight that
+    stand still.
 
     The box is ten radii wide; the eight touch in pairs along bottom and top, so that there is a mean contact.
     """
@@ -22,13 +24,21 @@ def cage(handScene):
     def make(disks, damping=0.4, gravity=(0, 0, 0), waterPressure=0.0, **attributes):
         side = 10 * R
         frame = [(x, y, R) for x in (R, 2.99 * R, side - 2.99 * R, side - R) for y in (R, side - R)]
-        free = handScene(frame + disks, (0, side, 0, side))[len(frame):]
+        free = handScene(frame + disks, (0, side, 0, side))[len(frame) :]
         for body in free:
             O.bodies[body].state.blockedDOFs = "zXY"
         newton = sediment.engine("newton")
         newton.damping, newton.gravity = damping, gravity
-        sediment.insertFluid(GasInvasionEngine(label="gas", waterPressure=waterPressure, gasPressure=waterPressure + 1,
-                                               inletFrom=0, inletTo=3 * R, **attributes))
+        sediment.insertFluid(
+            GasInvasionEngine(
+                label="gas",
+                waterPressure=waterPressure,
+                gasPressure=waterPressure + 1,
+                inletFrom=0,
+                inletTo=3 * R,
+                **attributes,
+            )
+        )
         sediment.advance(2)  # contacts form
         return free
 

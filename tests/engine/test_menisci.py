@@ -1,6 +1,8 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """MeniscusCohesionEngine: forces against formulas written out here, their sum, energy over cycles, saving, errors.
 
-Two grains side by side; the cell below them holds gas, the one above water, at equal pressures, so that menisci make all the forces.
+Two grains side by side; the cell below them holds gas, the one above water, at equal pressures, so that menisci make
+all the forces.
 """
 
 import math
@@ -39,11 +41,20 @@ def place(gap):
 
 @pytest.fixture
 def menisci(handScene):
-    """A function (gap, **attributes of the engine) -> the engine; no step made yet. Only the pair unless ``walls`` is given."""
+    """A function (gap, **attributes of the engine) -> the engine; no step made yet. Only the pair unless ``walls`` is
+    given.
+    """
 
     def make(gap, gas=None, fixed=True, **attributes):
         handScene([(-R1, 0, R1), (R2 + gap, 0, R2)], (-4e-3, 5e-3, -4e-3, 4e-3), fixed=fixed)
-        fluid = GasInvasionEngine(label="gas", poreMode="triangle", inletPoints=[(2e-4, -1.5e-3)], thickness=W, interfacialTension=GAMMA, **(gas or {}))
+        fluid = GasInvasionEngine(
+            label="gas",
+            poreMode="triangle",
+            inletPoints=[(2e-4, -1.5e-3)],
+            thickness=W,
+            interfacialTension=GAMMA,
+            **(gas or {}),
+        )
         mine = MeniscusCohesionEngine(label="menisci", **{"walls": False, "bridgeVolume": VOLUME, **attributes})
         if fixed:
             O.engines = [ForceResetter(), mine, fluid]
@@ -71,14 +82,17 @@ def test_twoGrainsArePulledTogether(menisci, law, gap):
     O.step()
     left, right = (body.id for body in sediment.grainBodies())
     found = forces()
-    # The gap is a difference of places of 3e-3 m: round-off of some 1e-18 m, over the length b = 1e-4 m in which the force falls.
+    # The gap is a difference of places of 3e-3 m: round-off of some 1e-18 m, over the length b = 1e-4 m in which the
+    # force falls.
     assert found[left][0] == pytest.approx(printedForce(law, gap), rel=1e-12)
     assert np.abs(found[left] + found[right]).max() <= 1e-15 * AT_CONTACT[law]
     assert all(np.all(force == 0) for body, force in found.items() if body not in (left, right))
     assert engine.nMenisci == 1
     reported = engine.menisci()
     assert reported["ids"] == [(left, right)] and reported["bridged"] == [True]
-    assert reported["gap"] == pytest.approx([gap], abs=1e-17) and reported["force"] == pytest.approx([found[left][0]], rel=1e-14)
+    assert reported["gap"] == pytest.approx([gap], abs=1e-17) and reported["force"] == pytest.approx(
+        [found[left][0]], rel=1e-14
+    )
 
 
 def test_strengthAtContactIsHalfPiTensionOverRadius(menisci):
@@ -86,7 +100,9 @@ def test_strengthAtContactIsHalfPiTensionOverRadius(menisci):
     menisci(0.0)
     O.step()
     left = sediment.grainBodies()[0].id
-    assert forces()[left][0] / (2 * MEAN * W) == pytest.approx(0.5 * math.pi * GAMMA / MEAN * DERJAGUIN / MEAN, rel=1e-14)
+    assert forces()[left][0] / (2 * MEAN * W) == pytest.approx(
+        0.5 * math.pi * GAMMA / MEAN * DERJAGUIN / MEAN, rel=1e-14
+    )
 
 
 def test_withoutAnInterfaceOrWhenDeadNothingPulls(menisci):
@@ -118,7 +134,9 @@ def test_placeAmongTheEnginesDoesNotMatter(menisci, order):
 
 
 def walk(gaps):
-    """Set the grains to the gaps, one after the other; returns the work of the forces on them, by the trapezoidal rule [J]."""
+    """Set the grains to the gaps, one after the other; returns the work of the forces on them, by the trapezoidal rule
+    [J].
+    """
     work, last = 0.0, None
     for gap in gaps:
         place(gap)
@@ -136,7 +154,8 @@ def test_cycleWithoutRuptureTakesNoWork(menisci, law):
     way = np.concatenate([np.linspace(-1e-5, 0, 20), np.linspace(0, 0.19 * MEAN, 400)[1:]])
     start = -AT_CONTACT[law] * 1e-5
     there = walk(way)
-    # Trapezoidal rule: h^2/12 (F'(end) - F'(0)), F' = F(0)/b at contact, b = 1e-4 m: h^2 F(0)/(12 b) = 3e-10 F(0) m, of work of some 5e-5 F(0) m: 1e-5.
+    # Trapezoidal rule: h^2/12 (F'(end) - F'(0)), F' = F(0)/b at contact, b = 1e-4 m: h^2 F(0)/(12 b) = 3e-10 F(0) m, of
+    # work of some 5e-5 F(0) m: 1e-5.
     assert there == pytest.approx(-(engine.energy + engine.formationLoss), rel=2e-5) and there < start
     assert engine.removalWork == 0
     loss = engine.formationLoss
@@ -155,7 +174,11 @@ def test_ruptureLosesWhatIsBooked(menisci, law):
     assert first > 0 and engine.energy == -first
     work = walk(out)
     assert work == pytest.approx(-first, rel=2e-5)  # trapezoidal rule, as above
-    assert walk([1.01 * H, 1.5 * H]) == pytest.approx(0, abs=AT_CONTACT[law] * 1e-17) and engine.nMenisci == 0 and engine.energy == 0
+    assert (
+        walk([1.01 * H, 1.5 * H]) == pytest.approx(0, abs=AT_CONTACT[law] * 1e-17)
+        and engine.nMenisci == 0
+        and engine.energy == 0
+    )
     # Back within the rupture gap nothing pulls until the grains touch.
     assert walk([0.9 * H, 0.5 * H, 1e-9]) == 0 and engine.nMenisci == 0 and engine.menisci()["bridged"] == [False]
     assert engine.formationLoss == first
@@ -187,15 +210,19 @@ def test_freeGrainsKeepTheirEnergy(menisci):
         contact = next((i for i in O.interactions if i.isReal), None)
         overlaps.append(max(contact.geom.penetrationDepth, 0) if contact else 0.0)
         speeds.append(np.array([body.state.vel[0] for body in grains]))
-        # Speeds are those half a step before and after the places of overlap and menisci; for springs the product is what leap-frog keeps.
+        # Speeds are those half a step before and after the places of overlap and menisci; for springs the product is
+        # what leap-frog keeps.
         motions.append(0.5 * np.sum(mass * speeds[-1] * speeds[-2]))
         totals.append(motions[-1] + 0.5 * stiffness * overlaps[-1] ** 2 + engine.energy)
     hits = np.count_nonzero(np.diff(np.array(overlaps) > 0) > 0) // 2
     assert hits >= 2 and max(motions) > engine.formationLoss  # they fall from 0.05 r into a well some two times as deep
-    # In a step at which they touch or part the force has a kink: an error of (omega dt)^2/8 of the energy of motion at most, omega^2 = k/m1 + k/m2.
+    # In a step at which they touch or part the force has a kink: an error of (omega dt)^2/8 of the energy of motion at
+    # most, omega^2 = k/m1 + k/m2.
     error = stiffness * np.sum(1 / mass) * O.dt**2 / 8
     # Energy was 0 before the meniscus formed, so what is there is what forming it lost.
-    assert error < 1e-2 and np.max(np.abs(np.array(totals) + engine.formationLoss)) < (2 * hits + 1) * error * max(motions)
+    assert error < 1e-2 and np.max(np.abs(np.array(totals) + engine.formationLoss)) < (2 * hits + 1) * error * max(
+        motions
+    )
     assert np.ptp([np.sum(mass * v) for v in speeds]) < 1e-12 * np.max(mass * np.abs(speeds))
 
 
@@ -292,10 +319,18 @@ def test_savedSceneKnowsWhatHasBroken(menisci, tmp_path):
             assert engine.nMenisci == 1 and engine.formationLoss == loss  # held, not formed anew
 
 
-@pytest.mark.parametrize("name, value, message", [
-    ("law", "linear", "law = 'linear', allowed: 'constant', 'bridge'"), ("interfacialTension", 0.0, r"interfacialTension \[N/m\] = 0, allowed: finite and > 0"),
-    ("contactAngle", 1.6, r"contactAngle \[rad\] = 1.6, allowed"), ("chi", -1.0, r"chi \[-\] = -1"), ("bridgeVolume", 0.0, r"bridgeVolume \[-\] = 0"),
-    ("bridgeVolume", math.nan, r"bridgeVolume \[-\] = nan"), ("ruptureGap", -0.1, r"ruptureGap \[-\] = -0.1, allowed: finite and >= 0")])
+@pytest.mark.parametrize(
+    "name, value, message",
+    [
+        ("law", "linear", "law = 'linear', allowed: 'constant', 'bridge'"),
+        ("interfacialTension", 0.0, r"interfacialTension \[N/m\] = 0, allowed: finite and > 0"),
+        ("contactAngle", 1.6, r"contactAngle \[rad\] = 1.6, allowed"),
+        ("chi", -1.0, r"chi \[-\] = -1"),
+        ("bridgeVolume", 0.0, r"bridgeVolume \[-\] = 0"),
+        ("bridgeVolume", math.nan, r"bridgeVolume \[-\] = nan"),
+        ("ruptureGap", -0.1, r"ruptureGap \[-\] = -0.1, allowed: finite and >= 0"),
+    ],
+)
 def test_attributesOutOfRangeAreRefused(name, value, message):
     engine = MeniscusCohesionEngine()
     before = getattr(engine, name)
@@ -310,7 +345,10 @@ def test_fluidEnginesThatDoNotFitAreNamed(menisci):
     engine = menisci(0.0)
     gas = O.engines[2]
     O.engines = [ForceResetter(), engine, PoreNetworkEngine()]
-    with pytest.raises((RuntimeError, ValueError), match=r"interfacialTension \[N/m\] = nan, allowed: a number where the fluid engine is a PoreNetworkEngine"):
+    with pytest.raises(
+        (RuntimeError, ValueError),
+        match=r"interfacialTension \[N/m\] = nan, allowed: a number where the fluid engine is a PoreNetworkEngine",
+    ):
         O.step()
     O.engines = [ForceResetter(), engine, gas, PoreNetworkEngine()]
     with pytest.raises(RuntimeError, match="several fluid engines"):
@@ -345,4 +383,6 @@ def test_caseFilesSwitchThemOn(law, tmp_path, capsys):
         assert found[0].law == law and found[0].nMenisci > 10 and found[0].energy < 0
         gamma = sediment.engine("gas").interfacialTension
         largest = 2 * 5 * gamma if law == "constant" else math.pi * gamma
-        assert max(found[0].menisci()["force"]) == pytest.approx(largest, rel=0.02)  # of grains in contact, nearly equal
+        assert max(found[0].menisci()["force"]) == pytest.approx(
+            largest, rel=0.02
+        )  # of grains in contact, nearly equal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """PoreNetworkEngine: its forces are the gradient of sum p V, its volumes fill the box, its domains follow the contacts.
 
 The grains stand where a test puts them (all degrees of freedom blocked); the engine alone is run.
@@ -131,7 +132,11 @@ def test_renumberingChangesNothing(networkOf, looseDisks, poreMode):
         domains = {}
         for key, domain in zip(keys, cells["domain"]):
             domains.setdefault(domain, set()).add(key)
-        return dict(zip(keys, cells["void"])), {frozenset(d) for d in domains.values()}, {name(i): f for i, f in engine.fluidForces().items()}
+        return (
+            dict(zip(keys, cells["void"])),
+            {frozenset(d) for d in domains.values()},
+            {name(i): f for i, f in engine.fluidForces().items()},
+        )
 
     voids, domains, forces = look(list(range(len(disks))))
     voids2, domains2, forces2 = look(order)
@@ -144,14 +149,18 @@ def test_renumberingChangesNothing(networkOf, looseDisks, poreMode):
         assert forces2[grain] == pytest.approx(force, abs=1e-13 * scale)
 
 
-@pytest.mark.parametrize("name, bad, message", [
-    ("poreMode", "pores", "poreMode = 'pores', allowed: 'domain', 'triangle'"),
-    ("mergeTolerance", -1, r"mergeTolerance \[-\] = -1, allowed: finite and >= 0"),
-    ("mergeHysteresis", 1.5, r"mergeHysteresis \[-\] = 1.5, allowed: 0 … 1"),
-    ("remeshDisplacement", math.nan, r"remeshDisplacement \[-\] = nan"),
-    ("maxSizeRatio", 0.5, r"maxSizeRatio \[-\] = 0.5, allowed: >= 1"),
-    ("thickness", 0, r"thickness \[m\] = 0, allowed: finite and > 0"),
-    ("waterPressure", math.inf, r"waterPressure \[Pa\] = inf, allowed: finite")])
+@pytest.mark.parametrize(
+    "name, bad, message",
+    [
+        ("poreMode", "pores", "poreMode = 'pores', allowed: 'domain', 'triangle'"),
+        ("mergeTolerance", -1, r"mergeTolerance \[-\] = -1, allowed: finite and >= 0"),
+        ("mergeHysteresis", 1.5, r"mergeHysteresis \[-\] = 1.5, allowed: 0 … 1"),
+        ("remeshDisplacement", math.nan, r"remeshDisplacement \[-\] = nan"),
+        ("maxSizeRatio", 0.5, r"maxSizeRatio \[-\] = 0.5, allowed: >= 1"),
+        ("thickness", 0, r"thickness \[m\] = 0, allowed: finite and > 0"),
+        ("waterPressure", math.inf, r"waterPressure \[Pa\] = inf, allowed: finite"),
+    ],
+)
 def test_impossibleValuesAreRefusedByName(name, bad, message):
     with pytest.raises(ValueError, match=message):
         PoreNetworkEngine(**{name: bad})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Snapshots, pictures and exported fields, checked on nine grains set by hand: no simulation, no YADE.
 
 The grains stand on a square lattice and touch; each square between four of them is two triangular cells, each gap
@@ -40,16 +41,43 @@ def makeSnapshot(radius=1e-3, gasCells=(0, 1), pressure=150.0, brokenBonds=((10,
     contacts = [(10, 11), (11, 12), (13, 14), (10, 13), (13, 16), (10, BOTTOM)]
     throats = [(10, 14), (11, 14), (10, 11), (14, 15), (10, BOTTOM)]
     s = snapshot.Snapshot(
-        ids=np.arange(10, 19), x=x, y=y, r=np.full(9, radius), displacement=np.linspace(0, radius, 18), rattler=np.arange(9) == 8,
-        contacts=contacts, contactEnds=np.zeros((6, 2, 2)), normalForce=[5, 4, 3, -2, 1, 5], shearForce=[0.5] * 6, bonded=[1, 1, 0, 1, 0, 0],
+        ids=np.arange(10, 19),
+        x=x,
+        y=y,
+        r=np.full(9, radius),
+        displacement=np.linspace(0, radius, 18),
+        rattler=np.arange(9) == 8,
+        contacts=contacts,
+        contactEnds=np.zeros((6, 2, 2)),
+        normalForce=[5, 4, 3, -2, 1, 5],
+        shearForce=[0.5] * 6,
+        bonded=[1, 1, 0, 1, 0, 0],
         brokenBonds=brokenBonds,
-        cellVertices=vertices, polygonOffsets=np.cumsum([0] + [len(p) for p in polygons]), polygonCorners=sum(polygons, []),
-        cellPhase=phase, cellPressure=pressure * phase, cellVoid=np.full(len(polygons), (4 - math.pi) * radius**2 / 2),
-        cellDomain=np.repeat(np.arange(6), 2), cellInlet=phase,
-        throatIds=throats, throatGap=[0.8 * radius, 0, 1e-9, 0, 0], throatOpen=[1, 0, 0, 0, 0], entryPressure=[math.nan, 150, 160, 1 / 3, math.nan],
+        cellVertices=vertices,
+        polygonOffsets=np.cumsum([0] + [len(p) for p in polygons]),
+        polygonCorners=sum(polygons, []),
+        cellPhase=phase,
+        cellPressure=pressure * phase,
+        cellVoid=np.full(len(polygons), (4 - math.pi) * radius**2 / 2),
+        cellDomain=np.repeat(np.arange(6), 2),
+        cellInlet=phase,
+        throatIds=throats,
+        throatGap=[0.8 * radius, 0, 1e-9, 0, 0],
+        throatOpen=[1, 0, 0, 0, 0],
+        entryPressure=[math.nan, 150, 160, 1 / 3, math.nan],
         throatCells=[(0, 1), (0, 2), (0, 8), (2, 6), (8, -1)],
-        box=[0, side, 0, side], wallIds=WALLS, inletPoints=[], inletWall="bottom", inletFrom=2 * radius, inletTo=4 * radius,
-        gasPressure=pressure, gasSaturation=len(gasCells) / 12, time=0.1, iteration=1234, level=7)
+        box=[0, side, 0, side],
+        wallIds=WALLS,
+        inletPoints=[],
+        inletWall="bottom",
+        inletFrom=2 * radius,
+        inletTo=4 * radius,
+        gasPressure=pressure,
+        gasSaturation=len(gasCells) / 12,
+        time=0.1,
+        iteration=1234,
+        level=7,
+    )
     s.contactEnds = s.endsOf(s.contacts)
     return s
 
@@ -57,7 +85,7 @@ def makeSnapshot(radius=1e-3, gasCells=(0, 1), pressure=150.0, brokenBonds=((10,
 def pixelsLike(path, colour, tolerance=12):
     """Number of pixels of about that colour ("#rrggbb")."""
     image = np.asarray(Image.open(path).convert("RGB")).astype(int)
-    wanted = [int(colour[k:k + 2], 16) for k in (1, 3, 5)]
+    wanted = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
     return int(np.sum(np.all(np.abs(image - wanted) <= tolerance, axis=2)))
 
 
@@ -153,7 +181,9 @@ def test_gasCoversTheVoidOfItsCells(tmp_path):
     assert whole - half == pytest.approx(2 * ((4 - math.pi) * r**2 - 2 * math.pi * r * outline), rel=0.02)
 
 
-@pytest.mark.parametrize("option, name", [("forces", "compression"), ("forces", "tension"), ("bonds", "broken"), ("dots", "dot")])
+@pytest.mark.parametrize(
+    "option, name", [("forces", "compression"), ("forces", "tension"), ("bonds", "broken"), ("dots", "dot")]
+)
 def test_optionsLeaveThingsOut(tmp_path, option, name):
     path = tmp_path / "s.png"
     s = makeSnapshot()
@@ -178,19 +208,29 @@ def test_samplesOfAnySizeStandSideBySide(tmp_path):
     for other in (s, makeSnapshot(1e-6)):
         figures.drawPair([s, other], path, forces=False)
         image = np.asarray(Image.open(path).convert("RGB")).astype(int)
-        halves = [int(np.sum(np.all(half == (0xF3, 0xE8, 0xC3), axis=2))) for half in np.array_split(image[:-150], 2, axis=1)]
+        halves = [
+            int(np.sum(np.all(half == (0xF3, 0xE8, 0xC3), axis=2))) for half in np.array_split(image[:-150], 2, axis=1)
+        ]
         assert halves[0] == pytest.approx(halves[1], rel=0.01) and halves[0] > 50_000
 
 
 def test_capillaryCurveIsDrawn(tmp_path):
-    levels = {"pressure": [100.0, 110.0, 120.0], "gasSaturation": [0, 0.2, 0.7], "brokenBonds": [0, 1, 5], "displacement": [0, 1e-3, 2e-2],
-              "displacementWithRattlers": [0, 1e-3, 3e-2], "atRest": [True, False, True]}
+    levels = {
+        "pressure": [100.0, 110.0, 120.0],
+        "gasSaturation": [0, 0.2, 0.7],
+        "brokenBonds": [0, 1, 5],
+        "displacement": [0, 1e-3, 2e-2],
+        "displacementWithRattlers": [0, 1e-3, 3e-2],
+        "atRest": [True, False, True],
+    }
     events = {"gasPressure": [110.0, 110.0, 120.0], "opened": [False, True, True]}
     path = tmp_path / "curve.png"
     curve.drawCapillaryCurve(levels, path, events=events, breakthroughPressure=115.0, bondCount=10)
     assert pixelsLike(path, figures.COLOURS["broken"]) > 100
     assert pixelsLike(path, figures.COLOURS["dot"]) > 100
-    curve.drawCapillaryCurve({**levels, "displacement": [0] * 3, "displacementWithRattlers": [0] * 3}, path, events=events)
+    curve.drawCapillaryCurve(
+        {**levels, "displacement": [0] * 3, "displacementWithRattlers": [0] * 3}, path, events=events
+    )
     curve.drawCapillaryCurve({name: [] for name in levels}, path, events={name: [] for name in events})
     assert pixelsLike(path, figures.COLOURS["dot"]) < 100  # but for the legend
 
@@ -202,8 +242,18 @@ def test_wrongRequestsAreRefused(tmp_path):
         figures.drawPair([makeSnapshot()] * 2, tmp_path / "s.png", titles=["one"])
 
 
-@pytest.mark.parametrize("value, text", [(1.5e5, "150 kPa"), (999.9, "1 kPa"), (170, "170 Pa"), (0.02, "20 mPa"), (1e-6, "1 µPa"),
-                                         (-2e3, "-2 kPa"), (0, "0 Pa")])
+@pytest.mark.parametrize(
+    "value, text",
+    [
+        (1.5e5, "150 kPa"),
+        (999.9, "1 kPa"),
+        (170, "170 Pa"),
+        (0.02, "20 mPa"),
+        (1e-6, "1 µPa"),
+        (-2e3, "-2 kPa"),
+        (0, "0 Pa"),
+    ],
+)
 def test_quantitiesAreWrittenForPeople(value, text):
     assert figures.quantity(value, "Pa") == text
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of runs of every kind: what is in them, and that they can be read (see :mod:`figurechecks`)."""
 
 from pathlib import Path
@@ -8,7 +9,7 @@ from matplotlib.colors import to_rgba
 
 from capfrac import curve, cycles, figures, fracture, history
 from capfrac.errors import CaseError
-from capfrac.fracture import figures as fractures
+from capfrac.plot import fracture as fractures
 from capfrac.sweep import depth_figures, regime_figures, regime_map
 from figurechecks import Drawn, check
 from test_fracture import EAST, NORTH, START, arm, board, cracks
@@ -17,8 +18,8 @@ from test_outputs import makeSnapshot
 LONG = (
     "Gas at a constant rate into the unconsolidated, fine-grained sediment of a site whose name takes up more room "
     "than anyone "
-    "would have thought, from a reservoir that is about as large as the pores, second sample, with menisci"
-) * 2
+    "would have thought, from a reservoir that is about as large as the pores, second sample, with menisci" * 2
+)
 
 
 @pytest.fixture

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The same seed gives the same bits: samples, positions after a run that deforms, events."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """capfrac.rigid: networks given as arrays, drained by the engines' code, against a drainage written out here."""
 
 import heapq
@@ -12,7 +13,9 @@ from capfrac.errors import CaseError
 
 
 def plainDrainage(network, trapping):
-    """Pores in the order of invasion up to the first outlet: a heap of throats, and a search for the outlet before each pore."""
+    """Pores in the order of invasion up to the first outlet: a heap of throats, and a search for the outlet before each
+    pore.
+    """
     beside = [[] for _ in network.gas]
     for t, (a, b) in enumerate(zip(network.left, network.right)):
         beside[a].append((t, b))
@@ -72,12 +75,17 @@ def test_latticeOfSixPores():
     assert pairs == [(0, 1), (0, 2), (1, 3), (2, 3), (2, 4), (3, 5), (4, 5), (6, 0), (6, 1)]
     assert network.gas.tolist() == [0] * 6 + [1] and network.outlet.tolist() == [0, 0, 0, 0, 1, 1, 0]
     at = {pair: k for k, pair in enumerate(zip(network.left.tolist(), network.right.tolist()))}
-    assert (network.x[at[2, 3]], network.y[at[2, 3]]) == (1.0, 1.5) and (network.x[at[6, 1]], network.y[at[6, 1]]) == (1.5, 0.5)
+    assert (network.x[at[2, 3]], network.y[at[2, 3]]) == (1.0, 1.5) and (network.x[at[6, 1]], network.y[at[6, 1]]) == (
+        1.5,
+        0.5,
+    )
     entry = np.full(9, 9.0)
     for k, pair in enumerate([(6, 1), (1, 3), (0, 1), (2, 3), (3, 5)]):
         entry[at[pair]] = k + 1.0
     found = rigid.drain(replace(network, entryPressure=entry))
-    assert found.pores.tolist() == [1, 3, 0, 2, 5] and found.throats.tolist() == [at[p] for p in [(6, 1), (1, 3), (0, 1), (2, 3), (3, 5)]]
+    assert found.pores.tolist() == [1, 3, 0, 2, 5] and found.throats.tolist() == [
+        at[p] for p in [(6, 1), (1, 3), (0, 1), (2, 3), (3, 5)]
+    ]
     assert rigid.drain(replace(network, entryPressure=entry), capillaryPressure=3.0).pores.tolist() == [1, 3, 0]
     assert not rigid.drain(replace(network, entryPressure=entry), capillaryPressure=3.0).brokeThrough
     assert sorted(rigid.drain(network, untilBreakthrough=False).pores.tolist()) == list(range(6))
@@ -94,10 +102,18 @@ def test_triangulation():
     assert network.count == pytest.approx(2400, abs=5 * 2 * math.sqrt(1200))
     degree = np.bincount(np.concatenate([network.left, network.right]), minlength=network.count + 1)
     x, y = network.poreX[:-1], network.poreY[:-1]
-    inner = (x > 0.1 * network.box[0]) & (x < 0.9 * network.box[0]) & (y > 0.1 * network.box[1]) & (y < 0.9 * network.box[1])
+    inner = (
+        (x > 0.1 * network.box[0])
+        & (x < 0.9 * network.box[0])
+        & (y > 0.1 * network.box[1])
+        & (y < 0.9 * network.box[1])
+    )
     assert np.all(degree[:-1][inner] == 3) and degree[:-1].max() == 3
-    assert len({frozenset(pair) for pair in zip(network.left.tolist(), network.right.tolist()) if network.count not in pair}) == np.count_nonzero(network.right != network.count)
-    # Along either end about sqrt(points per length) edges leave; all outlets are near the top, all pores on the reservoir near the bottom.
+    assert len(
+        {frozenset(pair) for pair in zip(network.left.tolist(), network.right.tolist()) if network.count not in pair}
+    ) == np.count_nonzero(network.right != network.count)
+    # Along either end about sqrt(points per length) edges leave; all outlets are near the top, all pores on the
+    # reservoir near the bottom.
     low, high = network.left[network.right == network.count], np.flatnonzero(network.outlet)
     assert len(low) > 20 and len(high) > 20
     assert y[low].max() < 0.15 * network.box[1] and y[high].min() > 0.85 * network.box[1]
@@ -117,12 +133,21 @@ def test_entryPressuresAreEquation15():
 @pytest.mark.parametrize("make", [rigid.squareLattice, rigid.delaunay])
 def test_sameSeedSameNetwork(make):
     one, same, other = (make(20, 20, seed) for seed in (4, 4, 5))
-    assert all(np.array_equal(getattr(one, name), getattr(same, name), equal_nan=True) for name in ("left", "right", "entryPressure", "poreX", "outlet"))
+    assert all(
+        np.array_equal(getattr(one, name), getattr(same, name), equal_nan=True)
+        for name in ("left", "right", "entryPressure", "poreX", "outlet")
+    )
     assert not np.array_equal(one.entryPressure, other.entryPressure)
 
 
-@pytest.mark.parametrize("arguments, message", [
-    ((1, 8), "width = 1, allowed: whole numbers >= 2"), ((8, 2.5), r"height = 2\.5, allowed"), ((8, 8, 0, "top"), "inlet = 'top', allowed: side, centre")])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        ((1, 8), "width = 1, allowed: whole numbers >= 2"),
+        ((8, 2.5), r"height = 2\.5, allowed"),
+        ((8, 8, 0, "top"), "inlet = 'top', allowed: side, centre"),
+    ],
+)
 @pytest.mark.parametrize("make", [rigid.squareLattice, rigid.delaunay])
 def test_networksThatCannotBeAreRefused(make, arguments, message):
     with pytest.raises(CaseError, match=message):
@@ -136,8 +161,14 @@ def test_grainsThatCannotBeAreRefused():
         rigid.delaunay(8, 8, solid=0)
 
 
-@pytest.mark.parametrize("name, index, value, message", [
-    ("right", 2, 99, r"right\[2\] = 99, allowed: a pore, 0 … 16"), ("left", 0, -1, r"left\[0\] = -1"), ("entryPressure", 4, math.nan, r"entryPressure\[4\] = nan, allowed: numbers \[Pa\]")])
+@pytest.mark.parametrize(
+    "name, index, value, message",
+    [
+        ("right", 2, 99, r"right\[2\] = 99, allowed: a pore, 0 … 16"),
+        ("left", 0, -1, r"left\[0\] = -1"),
+        ("entryPressure", 4, math.nan, r"entryPressure\[4\] = nan, allowed: numbers \[Pa\]"),
+    ],
+)
 def test_entriesAtFaultAreNamed(name, index, value, message):
     network = rigid.squareLattice(4, 4)
     changed = getattr(network, name).copy()
@@ -159,9 +190,17 @@ def test_kernelsRefuseOtherArrays():
     one = np.ones(1, np.int32)
     good = [i, one, d, d, d, b, b, 1.0]
     assert _kernels.drain(*good) == ([], [], [])
-    for k, wrong, message in [(0, i.astype(np.int16), "left: 1-dimensional array of 'h', allowed: a one-dimensional contiguous array of int32"),
-                              (2, np.zeros((1, 1)), "entryPressure: 2-dimensional array of 'd'"), (3, np.zeros(4)[::2], "x: something that is no contiguous array"),
-                              (5, 1.0, "gas: something that is no contiguous array"), (4, d.astype(np.float32), "y: 1-dimensional array of 'f'")]:
+    for k, wrong, message in [
+        (
+            0,
+            i.astype(np.int16),
+            "left: 1-dimensional array of 'h', allowed: a one-dimensional contiguous array of int32",
+        ),
+        (2, np.zeros((1, 1)), "entryPressure: 2-dimensional array of 'd'"),
+        (3, np.zeros(4)[::2], "x: something that is no contiguous array"),
+        (5, 1.0, "gas: something that is no contiguous array"),
+        (4, d.astype(np.float32), "y: 1-dimensional array of 'f'"),
+    ]:
         with pytest.raises(TypeError, match=message):
             _kernels.drain(*good[:k], wrong, *good[k + 1 :])
     with pytest.raises(ValueError, match=r"maxSteps \[-\] = 0, allowed: >= 1"):

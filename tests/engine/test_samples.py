@@ -1,16 +1,22 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What cannot be a sample is refused before any work, and what becomes none as soon as that shows."""
 
 import numpy as np
 import pytest
 from yade import O
 
-from capfrac import case, packing, samplechecks, sediment
+from capfrac import case, packing, sediment
 from capfrac.errors import CaseError, SampleError, SceneError
-from capfrac.samplechecks import Flow, forceNetwork
+from capfrac.scene import samplechecks
+from capfrac.scene.samplechecks import Flow, forceNetwork
 
 R = 1e-3
-GOOD = {"grains": {"rMin": R, "count": 60}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "inlet": {"pores": 2},
-        "ramp": {"start": 100, "increment": 1, "max": 200}}
+GOOD = {
+    "grains": {"rMin": R, "count": 60},
+    "stress": {"vertical": 10e3, "horizontal": 8e3},
+    "inlet": {"pores": 2},
+    "ramp": {"start": 100, "increment": 1, "max": 200},
+}
 
 
 def lattice(columns, rows, overlap=1e-3):
@@ -55,10 +61,15 @@ def test_stressesBelowThat(vertical, horizontal):
 def test_aSampleThatFlowsIsStopped(stressV, stressH):
     # With friction 0.2 none of ten samples bore a ratio of 3, and none of thirty of any friction one of 4.
     steps = []
-    with pytest.raises(SampleError, match=r"the sample flows under sigma_V = .* \(stress.vertical\), sigma_H = .* a "
-                       r"side") as caught:
-        sediment.makeSample(sediment.Sediment(grainCount=40, rMin=R, rMax=2 * R, friction=0.2), stressV, stressH,
-                            progress=lambda label, unbalanced: steps.append(O.iter))
+    with pytest.raises(
+        SampleError, match=r"the sample flows under sigma_V = .* \(stress.vertical\), sigma_H = .* a " r"side"
+    ) as caught:
+        sediment.makeSample(
+            sediment.Sediment(grainCount=40, rMin=R, rMax=2 * R, friction=0.2),
+            stressV,
+            stressH,
+            progress=lambda label, unbalanced: steps.append(O.iter),
+        )
     assert "a ratio of 3.85" in str(caught.value)
     # The box is not far off yet: looked at every thousand steps, in which a wall moves by half a radius at most.
     width, height = sediment.boxSize()
@@ -78,8 +89,9 @@ def test_growthIsOfTheLeastLength():
     flow = Flow((1.0, 1.0), 0.01)
     for size in [(1.0, 0.9), (0.8, 0.9), (1.119, 0.7), (0.8, 0.979)]:
         flow.check(size, 2.0, 1.0, 0.5)
-    with pytest.raises(SampleError, match="a ratio of 2: the box went from 1 x 1 m to 0.8 x 0.982 m, a side grew by "
-                       "40%; allowed: 40%"):
+    with pytest.raises(
+        SampleError, match="a ratio of 2: the box went from 1 x 1 m to 0.8 x 0.982 m, a side grew by 40%; allowed: 40%"
+    ):
         flow.check((0.8, 0.982), 2.0, 1.0, 0.5)
     with pytest.raises(SampleError, match="a side grew by 41%"):
         flow.check((1.128, 0.7), 1.0, 2.0, 0.5)
@@ -183,16 +195,26 @@ def test_whatDoesNotSettleSaysWhy():
         sediment.settle(sample, maxSteps=3000)
 
 
-@pytest.mark.parametrize("count, aspect, allowed", [
-    # 60 grains of 1 to 2 mm fill 60 pi (1 + 2 + 4)/3 / 0.84 = 523.6 mm^2: two layers of 6 mm, two columns of 8 mm.
-    (60, 0.01, "0.069 to 8.2"), (60, 100, "0.069 to 8.2"), (60, 0.0687, "0.069 to 8.2"), (60, 8.2, "0.069 to 8.2"),
-    (3, 0.5, "1 to 1"), (3, 2, "1 to 1"), (60, 1e-300, "0.069 to 8.2")])
+@pytest.mark.parametrize(
+    "count, aspect, allowed",
+    [
+        # 60 grains of 1 to 2 mm fill 60 pi (1 + 2 + 4)/3 / 0.84 = 523.6 mm^2: two layers of 6 mm, two columns of 8 mm.
+        (60, 0.01, "0.069 to 8.2"),
+        (60, 100, "0.069 to 8.2"),
+        (60, 0.0687, "0.069 to 8.2"),
+        (60, 8.2, "0.069 to 8.2"),
+        (3, 0.5, "1 to 1"),
+        (3, 2, "1 to 1"),
+        (60, 1e-300, "0.069 to 8.2"),
+    ],
+)
 def test_shapesThatSoManyGrainsCannotHave(count, aspect, allowed):
     with pytest.raises(CaseError, match=f"grains.aspect = .*, allowed: {allowed} for so many grains"):
         case.resolveCase({**GOOD, "grains": {"rMin": R, "count": count, "aspect": aspect}})
     with pytest.raises(CaseError, match="aspect = .*, allowed: .* for so many grains"):
-        sediment.placeSample(sediment.Sediment(grainCount=count, rMin=R, rMax=2 * R,
-                                               aspect=0.9 * aspect if aspect < 1 else 1.1 * aspect))
+        sediment.placeSample(
+            sediment.Sediment(grainCount=count, rMin=R, rMax=2 * R, aspect=0.9 * aspect if aspect < 1 else 1.1 * aspect)
+        )
     assert len(O.bodies) == 0
 
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Saving and loading: nothing is lost, and a run that is taken up again goes on as if it had not been interrupted.
 
 Everything is compared to the last bit, the run after loading, too. A tolerance would hide what a fracturing sample
@@ -9,14 +10,26 @@ import math
 import numpy as np
 import pytest
 from yade import O
-from yade.wrapper import (DiskMat, GasInvasionEngine, Ig2_Wall_Sphere_ScGeom6D, InteractionLoop, Ip2_DiskMat_DiskMat_CohFrictPhys,
-                          Ip2_WallMat_DiskMat_CohFrictPhys, Law2_ScGeom6D_CohFrictPhys_CohesionMoment, PoreNetworkEngine, WallMat, WallServoEngine)
+from yade.wrapper import (
+    DiskMat,
+    GasInvasionEngine,
+    Ig2_Wall_Sphere_ScGeom6D,
+    InteractionLoop,
+    Ip2_DiskMat_DiskMat_CohFrictPhys,
+    Ip2_WallMat_DiskMat_CohFrictPhys,
+    Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
+    PoreNetworkEngine,
+    WallMat,
+    WallServoEngine,
+)
 
 import restart
 from capfrac import injection, sediment
 from restart import reload
 
-STARTED = dict(start=130e3, increment=5e3, max=200e3, pores=3, minLevelSteps=20, maxLevelSteps=200, checkInvariants=True)
+STARTED = dict(
+    start=130e3, increment=5e3, max=200e3, pores=3, minLevelSteps=20, maxLevelSteps=200, checkInvariants=True
+)
 
 
 def same(a, b):
@@ -34,12 +47,24 @@ def attributesOf(thing):
 
 
 def reports(gas):
-    return {"cells": gas.cells(), "throats": gas.throats(), "volumes": gas.volumes(), "events": gas.events(), "levels": gas.levels(),
-            "forces": gas.fluidForces(), "broken": gas.brokenBonds(), "next": gas.nextEntryPressure(), "ledger": gas.gasLedger(), "history": gas.history()}
+    return {
+        "cells": gas.cells(),
+        "throats": gas.throats(),
+        "volumes": gas.volumes(),
+        "events": gas.events(),
+        "levels": gas.levels(),
+        "forces": gas.fluidForces(),
+        "broken": gas.brokenBonds(),
+        "next": gas.nextEntryPressure(),
+        "ledger": gas.gasLedger(),
+        "history": gas.history(),
+    }
 
 
 #: The same sample under a rate, torn within the 2000 steps, too.
-SUPPLIED = dict(gasLaw="ideal", gasControl="rate", gasRate=3e-5, reservoirVolume=3e-10, invasionInterval=20, historyInterval=10)
+SUPPLIED = dict(
+    gasLaw="ideal", gasControl="rate", gasRate=3e-5, reservoirVolume=3e-10, invasionInterval=20, historyInterval=10
+)
 
 
 @pytest.mark.parametrize("supply", [{}, SUPPLIED], ids=["ramp", "rate"])
@@ -81,11 +106,23 @@ def test_continuedRunIsTheUninterruptedOne(loadSample, tmp_path, steps, supply):
 
 
 def test_continuedImbibitionIsTheUninterruptedOne(loadSample, tmp_path):
-    """Trapped gas, its pressure and the throats that are snapped off survive: the rest of the cycle has the same bits."""
+    """Trapped gas, its pressure and the throats that are snapped off survive: the rest of the cycle has the
+    same bits.
+    """
 
     def run(interrupt):
         loadSample(1e-3)
-        injection.startInjection(start=250, increment=0, max=251, pores=2, imbibition=True, snapOff=True, fluidDensity=1000, gravity=(0, -1.0), checkInvariants=True)
+        injection.startInjection(
+            start=250,
+            increment=0,
+            max=251,
+            pores=2,
+            imbibition=True,
+            snapOff=True,
+            fluidDensity=1000,
+            gravity=(0, -1.0),
+            checkInvariants=True,
+        )
         sediment.advance(300)
         sediment.engine("gas").gasPressure = 60
         sediment.advance(300)
@@ -105,7 +142,10 @@ def test_continuedImbibitionIsTheUninterruptedOne(loadSample, tmp_path):
     assert same(continued, whole)
 
 
-@pytest.mark.parametrize("name, value", [("maxPressure", 300e3), ("checkInvariants", False), ("openingThreshold", 0.02), ("poreMode", "domain")])
+@pytest.mark.parametrize(
+    "name, value",
+    [("maxPressure", 300e3), ("checkInvariants", False), ("openingThreshold", 0.02), ("poreMode", "domain")],
+)
 def test_assignmentAfterSavingDoesNotRewind(loadSample, tmp_path, name, value):
     # YADE calls the same hook after loading and after an assignment; what was saved long ago must not come back.
     loadSample(1e-6)
@@ -132,15 +172,68 @@ def test_pressuresThatWereSetAreKept(handScene, looseDisks, tmp_path):
 
 
 ENGINES = [
-    (PoreNetworkEngine, dict(poreMode="triangle", mergeTolerance=2e-3, mergeHysteresis=0.25, remeshDisplacement=2e-3, maxSizeRatio=7, thickness=0.3,
-                             waterPressure=12.5)),
-    (GasInvasionEngine, dict(interfacialTension=0.07, contactAngle=0.3, gasPressure=11, pressureIncrement=2, maxPressure=33, unbalancedTolerance=2e-3,
-                             minLevelSteps=7, maxLevelSteps=70, inletWall="left", inletFrom=0.1, inletTo=0.2, inletPoints=[(0.5, 0.25), (1, 2)],
-                             outletWall="right", trapping=True, openingThreshold=0.03, checkInvariants=True, restDisplacement=0.02)),
-    (GasInvasionEngine, dict(gasLaw="ideal", gasMolarMass=0.02, gasTemperature=280, gasDeviation=0.8, pressureDatum=2e5, gasControl="rate", gasRate=3e-6,
-                             reservoirVolume=1e-9, historyInterval=5, pressureProgram=[3, 1])),
+    (
+        PoreNetworkEngine,
+        dict(
+            poreMode="triangle",
+            mergeTolerance=2e-3,
+            mergeHysteresis=0.25,
+            remeshDisplacement=2e-3,
+            maxSizeRatio=7,
+            thickness=0.3,
+            waterPressure=12.5,
+        ),
+    ),
+    (
+        GasInvasionEngine,
+        dict(
+            interfacialTension=0.07,
+            contactAngle=0.3,
+            gasPressure=11,
+            pressureIncrement=2,
+            maxPressure=33,
+            unbalancedTolerance=2e-3,
+            minLevelSteps=7,
+            maxLevelSteps=70,
+            inletWall="left",
+            inletFrom=0.1,
+            inletTo=0.2,
+            inletPoints=[(0.5, 0.25), (1, 2)],
+            outletWall="right",
+            trapping=True,
+            openingThreshold=0.03,
+            checkInvariants=True,
+            restDisplacement=0.02,
+        ),
+    ),
+    (
+        GasInvasionEngine,
+        dict(
+            gasLaw="ideal",
+            gasMolarMass=0.02,
+            gasTemperature=280,
+            gasDeviation=0.8,
+            pressureDatum=2e5,
+            gasControl="rate",
+            gasRate=3e-6,
+            reservoirVolume=1e-9,
+            historyInterval=5,
+            pressureProgram=[3, 1],
+        ),
+    ),
     (GasInvasionEngine, dict(entryLaw="mayerStowePrincen")),
-    (GasInvasionEngine, dict(imbibition=True, snapOff=True, trapping=True, filmConductance=1e-12, fluidDensity=1024, gasDensity=80, gravity=(1, -9.5))),
+    (
+        GasInvasionEngine,
+        dict(
+            imbibition=True,
+            snapOff=True,
+            trapping=True,
+            filmConductance=1e-12,
+            fluidDensity=1024,
+            gasDensity=80,
+            gravity=(1, -9.5),
+        ),
+    ),
     (WallServoEngine, dict(stressX=5, stressY=6, fixedWalls=["left", "top"], gain=0.5, maxVelocity=0.2, thickness=0.3)),
 ]
 
@@ -155,9 +248,24 @@ def test_enginesKeepTheirAttributes(cls, values, tmp_path):
     assert set(values) <= set(before)
 
 
-@pytest.mark.parametrize("cls, values", [
-    (DiskMat, dict(normalStiffness=2e7, shearStiffness=3e6, tensileStrength=4.0, shearStrength=5.0, capillaryStrength=0.6, density=2600.0, frictionAngle=0.4)),
-    (WallMat, dict(normalStiffness=2e7, shearStiffness=3e6, bondFactor=7.0, frictionAngle=0.4))])
+@pytest.mark.parametrize(
+    "cls, values",
+    [
+        (
+            DiskMat,
+            dict(
+                normalStiffness=2e7,
+                shearStiffness=3e6,
+                tensileStrength=4.0,
+                shearStrength=5.0,
+                capillaryStrength=0.6,
+                density=2600.0,
+                frictionAngle=0.4,
+            ),
+        ),
+        (WallMat, dict(normalStiffness=2e7, shearStiffness=3e6, bondFactor=7.0, frictionAngle=0.4)),
+    ],
+)
 def test_materialsKeepTheirAttributes(cls, values, tmp_path):
     O.materials.append(cls(label="it", **values))
     reload(tmp_path)
@@ -170,15 +278,31 @@ def test_functorsAndBondsAreKept(loadSample, tmp_path):
     sediment.engine("bonds").thickness = 0.5
 
     def contacts():
-        return sorted((i.id1, i.id2, i.phys.kn, i.phys.ks, i.phys.normalAdhesion, i.phys.shearAdhesion, i.phys.cohesionBroken,
-                       tuple(i.phys.normalForce), tuple(i.phys.shearForce)) for i in O.interactions if i.isReal)
+        return sorted(
+            (
+                i.id1,
+                i.id2,
+                i.phys.kn,
+                i.phys.ks,
+                i.phys.normalAdhesion,
+                i.phys.shearAdhesion,
+                i.phys.cohesionBroken,
+                tuple(i.phys.normalForce),
+                tuple(i.phys.shearForce),
+            )
+            for i in O.interactions
+            if i.isReal
+        )
 
     before = contacts()
     assert 20 < sum(not c[6] for c in before) < len(before)  # some were under more shear than a bond holds
     reload(tmp_path)
     assert contacts() == before
     loop = next(e for e in O.engines if isinstance(e, InteractionLoop))
-    assert {type(f) for f in loop.physDispatcher.functors} == {Ip2_DiskMat_DiskMat_CohFrictPhys, Ip2_WallMat_DiskMat_CohFrictPhys}
+    assert {type(f) for f in loop.physDispatcher.functors} == {
+        Ip2_DiskMat_DiskMat_CohFrictPhys,
+        Ip2_WallMat_DiskMat_CohFrictPhys,
+    }
     assert Ig2_Wall_Sphere_ScGeom6D in {type(f) for f in loop.geomDispatcher.functors}
     assert {type(f) for f in loop.lawDispatcher.functors} == {Law2_ScGeom6D_CohFrictPhys_CohesionMoment}
     assert sediment.engine("bonds").thickness == 0.5

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What a save forgets: runs with every supply and option, saved and loaded on the way, against those that never were.
 
 Grains are driven along given paths, without contacts: no order of contacts and no chaos comes in, and all numbers must
@@ -10,8 +11,15 @@ import re
 import numpy as np
 import pytest
 from yade import O, utils
-from yade.wrapper import (ForceResetter, GasInvasionEngine, MeniscusCohesionEngine, NewtonIntegrator, PoreNetworkEngine,
-                          SinglePhaseFlowEngine, WallServoEngine)
+from yade.wrapper import (
+    ForceResetter,
+    GasInvasionEngine,
+    MeniscusCohesionEngine,
+    NewtonIntegrator,
+    PoreNetworkEngine,
+    SinglePhaseFlowEngine,
+    WallServoEngine,
+)
 
 STEPS = 160
 #: Steps before which the scene is saved and loaded, or only saved.
@@ -43,47 +51,106 @@ RUNS = {
     "rampDone": (lambda: gas(maxPressure=80), {}, lambda e: e.rampDone and e.level == 3),
     "rampMovedUp": (lambda: gas(maxPressure=80), at(80, maxPressure=100), lambda e: e.rampDone and e.level == 6),
     "held": (lambda: gas(pressureIncrement=0), {}, lambda e: e.rampDone and e.level == 1),
-    "heldByHand": (lambda: gas(pressureIncrement=0), {**at(40, gasPressure=120), **at(100, openingThreshold=0.02)},
-                   lambda e: e.rampDone and e.level == 2),
-    "program": (lambda: gas(pressureProgram=[150, 70, 90], pressureIncrement=90, imbibition=True, snapOff=True), {},
-                lambda e: e.rampDone and e.programPosition == 3 and e.level >= 4),
-    "programChanged": (lambda: gas(pressureProgram=[150, 70], pressureIncrement=30),
-                       at(60, pressureProgram=[70, 130, 60]), lambda e: e.rampDone and e.programPosition == 3),
+    "heldByHand": (
+        lambda: gas(pressureIncrement=0),
+        {**at(40, gasPressure=120), **at(100, openingThreshold=0.02)},
+        lambda e: e.rampDone and e.level == 2,
+    ),
+    "program": (
+        lambda: gas(pressureProgram=[150, 70, 90], pressureIncrement=90, imbibition=True, snapOff=True),
+        {},
+        lambda e: e.rampDone and e.programPosition == 3 and e.level >= 4,
+    ),
+    "programChanged": (
+        lambda: gas(pressureProgram=[150, 70], pressureIncrement=30),
+        at(60, pressureProgram=[70, 130, 60]),
+        lambda e: e.rampDone and e.programPosition == 3,
+    ),
     "triangles": (lambda: gas(poreMode="triangle", mergeTolerance=0.01, localFlips=False), {}, lambda e: e.nEvents > 5),
     "rate": (lambda: gas(historyInterval=3, reservoirVolume=3e-5, **RATE), {}, lambda e: e.nEvents > 0),
     "ratePoor": (lambda: gas(historyInterval=3, **RATE), {}, lambda e: e.nEvents > 0),
     "shutIn": (lambda: gas(reservoirVolume=3e-5, **RATE), at(60, gasRate=0), lambda e: e.nEvents > 0),
-    "reservoir": (lambda: gas(gasPressure=190, gasControl="reservoir", reservoirVolume=3e-4, gasLaw="tabulated",
-                              gasTable=[(100, 0.1), (400, 0.5), (5000, 3)], pressureDatum=300), {},
-                  lambda e: e.rampDone and e.level == 1 and e.nEvents > 0),
+    "reservoir": (
+        lambda: gas(
+            gasPressure=190,
+            gasControl="reservoir",
+            reservoirVolume=3e-4,
+            gasLaw="tabulated",
+            gasTable=[(100, 0.1), (400, 0.5), (5000, 3)],
+            pressureDatum=300,
+        ),
+        {},
+        lambda e: e.rampDone and e.level == 1 and e.nEvents > 0,
+    ),
     "reservoirAttached": (lambda: gas(**RATE), at(50, reservoirVolume=2e-6), lambda e: e.nEvents > 0),
     "controlChanged": (lambda: gas(maxPressure=80, **IDEAL), at(70, **RATE), lambda e: e.nEvents > 0),
-    "films": (lambda: gas(trapping=True, filmConductance=1e-9, outletWall="right", gasPressure=150, **IDEAL), {},
-              lambda e: e.nEvents > 0 and e.nTrappedWater > 0),
-    "imbibition": (lambda: gas(gasPressure=190, pressureIncrement=0, imbibition=True, snapOff=True, gasDeviation=0.9,
-                               **IDEAL, **WEIGHT),
-                   {**at(40, gasPressure=30), **at(100, gasPressure=180)}, lambda e: e.nReturns > 3),
+    "films": (
+        lambda: gas(trapping=True, filmConductance=1e-9, outletWall="right", gasPressure=150, **IDEAL),
+        {},
+        lambda e: e.nEvents > 0 and e.nTrappedWater > 0,
+    ),
+    "imbibition": (
+        lambda: gas(
+            gasPressure=190, pressureIncrement=0, imbibition=True, snapOff=True, gasDeviation=0.9, **IDEAL, **WEIGHT
+        ),
+        {**at(40, gasPressure=30), **at(100, gasPressure=180)},
+        lambda e: e.nReturns > 3,
+    ),
     "buoyancy": (lambda: gas(**WEIGHT), {}, lambda e: e.nEvents > 0),
-    "points": (lambda: gas(inletPoints=[(3.17e-3, 3.2e-4)], outletWall="any", entryLaw="mayerStowePrincen"), {},
-               lambda e: e.nEvents > 0),
+    "points": (
+        lambda: gas(inletPoints=[(3.17e-3, 3.2e-4)], outletWall="any", entryLaw="mayerStowePrincen"),
+        {},
+        lambda e: e.nEvents > 0,
+    ),
     "solved": (lambda: gas(**SOLVED), {}, lambda e: e.nEvents > 0),
-    "solvedRate": (lambda: gas(filmConductance=1e-9, reservoirVolume=2e-6, **{**SOLVED, **RATE, "gasRate": 3e-6}), {},
-                   lambda e: e.nEvents > 0),
-    "solvedHeavy": (lambda: gas(grainBulkModulus=1e7, conductanceLaw="lubrication",
-                                **{**SOLVED, "pressureDatum": 1e5}, **WEIGHT), {}, lambda e: e.nEvents > 0),
+    "solvedRate": (
+        lambda: gas(filmConductance=1e-9, reservoirVolume=2e-6, **{**SOLVED, **RATE, "gasRate": 3e-6}),
+        {},
+        lambda e: e.nEvents > 0,
+    ),
+    "solvedHeavy": (
+        lambda: gas(grainBulkModulus=1e7, conductanceLaw="lubrication", **{**SOLVED, "pressureDatum": 1e5}, **WEIGHT),
+        {},
+        lambda e: e.nEvents > 0,
+    ),
     "water": (water, {}, lambda e: e.nFactorizations > 0),
-    "waterImplicit": (lambda: water(timeIntegration="implicit", grainBulkModulus=1e7, fluidDensity=1000,
-                                    gravity=(0, -9.81)), {}, lambda e: e.nFactorizations > 0),
-    "waterExplicit": (lambda: water(timeIntegration="explicit", bulkModulus=20, viscosity=1e-2,
-                                    wallFluxes=[1e-9, 0, 0, 0]), {},
-                      lambda e: e.wallInflow[0] > 0),
-    "incompressible": (lambda: water(bulkModulus=math.inf, pointFluxes=[(5e-3, 5e-3, 1e-9)]),
-                       at(50, wallPressures=[0, 0, 0, 0]), lambda e: e.nFactorizations > 0),
+    "waterImplicit": (
+        lambda: water(timeIntegration="implicit", grainBulkModulus=1e7, fluidDensity=1000, gravity=(0, -9.81)),
+        {},
+        lambda e: e.nFactorizations > 0,
+    ),
+    "waterExplicit": (
+        lambda: water(timeIntegration="explicit", bulkModulus=20, viscosity=1e-2, wallFluxes=[1e-9, 0, 0, 0]),
+        {},
+        lambda e: e.wallInflow[0] > 0,
+    ),
+    "incompressible": (
+        lambda: water(bulkModulus=math.inf, pointFluxes=[(5e-3, 5e-3, 1e-9)]),
+        at(50, wallPressures=[0, 0, 0, 0]),
+        lambda e: e.nFactorizations > 0,
+    ),
     "network": (lambda: PoreNetworkEngine(label="it", waterPressure=1e3), {}, lambda e: e.nRemeshes > 1),
 }
 #: What engines tell, by the names of their methods.
-REPORTS = ("cells", "throats", "volumes", "fluidForces", "dict", "events", "imbibitionEvents", "levels", "gasLedger",
-           "history", "brokenBonds", "nextEntryPressure", "displacements", "rattlersNow", "pores", "inflow", "menisci")
+REPORTS = (
+    "cells",
+    "throats",
+    "volumes",
+    "fluidForces",
+    "dict",
+    "events",
+    "imbibitionEvents",
+    "levels",
+    "gasLedger",
+    "history",
+    "brokenBonds",
+    "nextEntryPressure",
+    "displacements",
+    "rattlersNow",
+    "pores",
+    "inflow",
+    "menisci",
+)
 
 
 def it():
@@ -93,8 +160,12 @@ def it():
 def reports():
     """All that the engines of the scene tell."""
     flowing = ("pores", "inflow")  # of water that is solved for
-    return {(engine.label, name): getattr(engine, name)() for engine in O.engines for name in REPORTS
-            if hasattr(engine, name) and not (name in flowing and getattr(engine, "waterFlow", "") == "drained")}
+    return {
+        (engine.label, name): getattr(engine, name)()
+        for engine in O.engines
+        for name in REPORTS
+        if hasattr(engine, name) and not (name in flowing and getattr(engine, "waterFlow", "") == "drained")
+    }
 
 
 def same(a, b):
@@ -143,8 +214,12 @@ def driven(settledScene):
         if isinstance(engine, GasInvasionEngine) and not engine.inletPoints:
             middle = 0.5 * (walls[0] + walls[1])
             engine.inletFrom, engine.inletTo = engine.inletStretch(2, middle)
-        O.engines = [ForceResetter(), *([MeniscusCohesionEngine(label="menisci")] if menisci else []), engine,
-                     *([] if still else [NewtonIntegrator(label="newton")])]
+        O.engines = [
+            ForceResetter(),
+            *([MeniscusCohesionEngine(label="menisci")] if menisci else []),
+            engine,
+            *([] if still else [NewtonIntegrator(label="newton")]),
+        ]
         O.dt = 1e-4
 
     return make

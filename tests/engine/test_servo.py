@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """WallServoEngine: walls come to the requested stresses, the fixed ones stay, what cannot be reached is said."""
 
 import math
@@ -21,7 +22,8 @@ def stressFromContacts():
     force = [0.0] * 4
     for i in O.interactions:
         if i.isReal and min(i.id1, i.id2) < 4:
-            # YADE orders a contact wall first, its normal from wall to grain: along it is compression, against it a bond.
+            # YADE orders a contact wall first, its normal from wall to grain: along it is compression, against it a
+            # bond.
             force[min(i.id1, i.id2)] += i.phys.normalForce.dot(i.geom.normal)
     return [f / length for f, length in zip(force, lengths)]
 
@@ -41,7 +43,9 @@ def test_wallsReachTheirTargets(loadSample, stressV, stressH):
     # mean unbalanced force 1e-3 of a contact force, over some eight contacts along a wall.
     for name, stress, target in zip(WALLS, servo.stress, (stressH, stressH, stressV, stressV)):
         assert stress == pytest.approx(target, abs=(0.005 if name != "bottom" else 0.01) * max(stressV, stressH)), name
-    assert servo.error == max(abs(servo.stress[w] - (stressH if w < 2 else stressV)) for w in (0, 1, 3)) / max(stressV, stressH)
+    assert servo.error == max(abs(servo.stress[w] - (stressH if w < 2 else stressV)) for w in (0, 1, 3)) / max(
+        stressV, stressH
+    )
     assert O.bodies[2].state.pos[1] == floor
     # The walls moved once more after the forces were read, by some 1e-6 of the box.
     np.testing.assert_allclose(servo.stress, stressFromContacts(), rtol=1e-5)
@@ -56,7 +60,7 @@ def test_fixedWallsStay(loadSample, fixed):
     O.run(500, True)
     for name, body, place in zip(WALLS, list(O.bodies)[:4], before):
         moved = np.subtract(body.state.pos, place)
-        assert (np.all(moved == 0) if name in fixed else moved[body.shape.axis] != 0), name
+        assert np.all(moved == 0) if name in fixed else moved[body.shape.axis] != 0, name
         assert np.count_nonzero(moved) <= 1  # along its normal only
 
 
@@ -85,7 +89,12 @@ def test_stressOutOfReachOfTheContacts(loadSample, sceneState):
     loadSample()
     before = sceneState()
     # sigma 2 r_max / k_n > 0.1 r_min: 0.05 k_n r_min / r_max = 250 kPa is the limit.
-    with pytest.raises(CaseError, match=r"stressV = 300000 Pa is out of reach: .* overlap by 0.12 of the smallest radius; allowed: up to 250000 Pa"):
+    with pytest.raises(
+        CaseError,
+        match=(
+            r"stressV = 300000 Pa is out of reach: .* overlap by 0.12 of the smallest radius; allowed: up to 250000 Pa"
+        ),
+    ):
         sediment.compress(sample(), 300e3, 8e3)
     with pytest.raises(CaseError, match="stressH = nan Pa, allowed: > 0"):
         sediment.compress(sample(), 10e3, math.nan)
@@ -94,17 +103,30 @@ def test_stressOutOfReachOfTheContacts(loadSample, sceneState):
 
 def test_stressThatIsNotReachedIsSaidWithWhatWas(loadSample):
     loadSample()
-    with pytest.raises(SampleError, match=r"sigma_V = 10000 Pa, sigma_H = 200000 Pa within 1000 steps: left .*, right .*, bottom .*, top .* Pa, unbalanced") as caught:
+    with pytest.raises(
+        SampleError,
+        match=(
+            r"sigma_V = 10000 Pa, sigma_H = 200000 Pa within 1000 steps: left .*, right .*, bottom .*, top .* Pa,"
+            r" unbalanced"
+        ),
+    ) as caught:
         sediment.compress(sample(), 10e3, 200e3, maxSteps=1000)
     shown = [float(v) for v in re.findall(r"(?:left|right|bottom|top) ([\d.e+]+)", str(caught.value))]
     np.testing.assert_allclose(shown, sediment.engine("servo").stress, rtol=1e-3)
 
 
-@pytest.mark.parametrize("name, bad, message", [
-    ("stressX", -1, r"stressX \[Pa\] = -1, allowed: finite and >= 0"), ("stressY", math.nan, r"stressY \[Pa\] = nan"),
-    ("gain", 0, r"gain \[-\] = 0, allowed: 0 < gain <= 1"), ("gain", 1.5, r"gain \[-\] = 1.5"),
-    ("maxVelocity", 0, r"maxVelocity \[m/s\] = 0, allowed: finite and > 0"), ("thickness", -1, r"thickness \[m\] = -1"),
-    ("fixedWalls", ["floor"], "fixedWalls = 'floor', allowed: 'left', 'right', 'bottom', 'top'")])
+@pytest.mark.parametrize(
+    "name, bad, message",
+    [
+        ("stressX", -1, r"stressX \[Pa\] = -1, allowed: finite and >= 0"),
+        ("stressY", math.nan, r"stressY \[Pa\] = nan"),
+        ("gain", 0, r"gain \[-\] = 0, allowed: 0 < gain <= 1"),
+        ("gain", 1.5, r"gain \[-\] = 1.5"),
+        ("maxVelocity", 0, r"maxVelocity \[m/s\] = 0, allowed: finite and > 0"),
+        ("thickness", -1, r"thickness \[m\] = -1"),
+        ("fixedWalls", ["floor"], "fixedWalls = 'floor', allowed: 'left', 'right', 'bottom', 'top'"),
+    ],
+)
 def test_impossibleValuesAreRefusedByName(name, bad, message):
     with pytest.raises(ValueError, match=f"WallServoEngine.{message}"):
         WallServoEngine(**{name: bad})
@@ -119,15 +141,23 @@ def test_drivenWallsMoveAtTheirVelocity(loadSample):
     before = [O.bodies[w].state.pos[O.bodies[w].shape.axis] for w in range(4)]
     O.run(200, True)
     moved = [O.bodies[w].state.pos[O.bodies[w].shape.axis] - before[w] for w in range(4)]
-    # Inwards: the left wall to the right, the top one down; a sum of 200 equal steps. The first step's velocity is set before
-    # the integrator moves the wall, so all 200 count.
+    # Inwards: the left wall to the right, the top one down; a sum of 200 equal steps. The first step's velocity is set
+    # before the integrator moves the wall, so all 200 count.
     assert moved[0] == pytest.approx(200 * O.dt * 1e-3, rel=1e-9)
     assert moved[3] == pytest.approx(-200 * O.dt * 1e-3, rel=1e-9)
     assert moved[2] == 0 and moved[1] != 0  # fixed; still under its stress
 
 
-@pytest.mark.parametrize("name, good, bad", [("stressX", 1e3, -1.0), ("gain", 0.5, 2.0), ("meanStress", 1e3, -5.0), ("driveVelocity", -2.0, float("inf")),
-                                             ("drivenWalls", ["top"], ["ceiling"])])
+@pytest.mark.parametrize(
+    "name, good, bad",
+    [
+        ("stressX", 1e3, -1.0),
+        ("gain", 0.5, 2.0),
+        ("meanStress", 1e3, -5.0),
+        ("driveVelocity", -2.0, float("inf")),
+        ("drivenWalls", ["top"], ["ceiling"]),
+    ],
+)
 def test_refusedAssignmentsChangeNothing(name, good, bad):
     servo = WallServoEngine()
     setattr(servo, name, good)

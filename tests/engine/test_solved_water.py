@@ -1,4 +1,7 @@
-"""GasInvasionEngine with waterFlow = 'solved': amounts, agreement with drained water in the slow limit, supplies, restart, errors."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""GasInvasionEngine with waterFlow = 'solved': amounts, agreement with drained water in the slow limit, supplies,
+restart, errors.
+"""
 
 import math
 
@@ -32,7 +35,14 @@ def test_amountsAreKeptWhileGasEnters(loadSample):
     assert np.median(np.array(events["gasPressure"]) - np.array(events["entryPressure"])) > 0
 
 
-@pytest.mark.parametrize("attributes", [dict(fluidDensity=1000, gasDensity=80, gravity=(0, -9.81)), dict(grainBulkModulus=1e8), dict(gasControl="rate", gasRate=2e-7, increment=0, grainBulkModulus=1e7, wallFluxes=[0, 0, 0, 1e-30])])
+@pytest.mark.parametrize(
+    "attributes",
+    [
+        dict(fluidDensity=1000, gasDensity=80, gravity=(0, -9.81)),
+        dict(grainBulkModulus=1e8),
+        dict(gasControl="rate", gasRate=2e-7, increment=0, grainBulkModulus=1e7, wallFluxes=[0, 0, 0, 1e-30]),
+    ],
+)
 def test_amountsAreKeptWithWeightAndInSoftGrains(loadSample, attributes):
     """In the last case the box is closed: an outlet with a prescribed flux has no pressure."""
     loadSample(1e-3)
@@ -47,6 +57,7 @@ def test_amountsAreKeptWithWeightAndInSoftGrains(loadSample, attributes):
 
 def test_grainsFollowThePressureRoundThem(loadSample):
     """Gas and water of one pressure compress all grains alike, by Eq. 10, and back."""
+
     def radii():
         return np.array([body.shape.radius for body in sediment.grainBodies()])
 
@@ -59,14 +70,15 @@ def test_grainsFollowThePressureRoundThem(loadSample):
         O.run(3000, True)
         pressures, around = np.array(gas.pores()["pressure"]), 3 * K * (1 - radii() / before)
         assert np.ptp(pressures) < 1e-3 * 1e4  # what is left of the motion
-        # The mean round a grain lies between those of its pores. Pressures are reported as means over a step, in which they move by 1e-3 of that at most; and
-        # radii round to 1e-16 of 3 K.
+        # The mean round a grain lies between those of its pores. Pressures are reported as means over a step, in which
+        # they move by 1e-3 of that at most; and radii round to 1e-16 of 3 K.
         assert np.all((around > pressures.min() - 1e-2) & (around < pressures.max() + 1e-2))
     assert gas.volumes()["error"] < 1e-12
 
 
 def test_slowGasBreaksThroughAsInDrainedWater(loadSample):
-    """At every level both reach rest, so the first level that reaches the outlet is the same, to the increment: water that is still
+    """At every level both reach rest, so the first level that reaches the outlet is the same, to the increment: water
+    that is still
     on its way when the level ends keeps the gas back, and pressures on the way move the grains a little."""
     found = {}
     for water in ("drained", "solved"):
@@ -85,11 +97,15 @@ def test_slowGasBreaksThroughAsInDrainedWater(loadSample):
 def test_suppliesAreKeptByMass(loadSample, control):
     loadSample(1e-3)
     supply = dict(gasRate=2e-7) if control == "rate" else {}
-    gas = injection.startInjection(**{**STARTED, "increment": 0, "start": 170}, gasControl=control, reservoirVolume=1e-5, **supply)
+    gas = injection.startInjection(
+        **{**STARTED, "increment": 0, "start": 170}, gasControl=control, reservoirVolume=1e-5, **supply
+    )
     before = gas.gasLedger()["injected"]
     O.run(2000, True)
     ledger = gas.gasLedger()
-    assert ledger["injected"] - before == pytest.approx(supply.get("gasRate", 0.0) * 2000 * O.dt, rel=1e-9, abs=1e-12 * before)
+    assert ledger["injected"] - before == pytest.approx(
+        supply.get("gasRate", 0.0) * 2000 * O.dt, rel=1e-9, abs=1e-12 * before
+    )
     assert ledger["error"] < 1e-12 and gas.nEvents > 0
     if control == "reservoir":
         assert gas.gasPressure < 170  # what left it filled pores
@@ -135,12 +151,21 @@ def test_pressuresOnTheWayLoadTheGrains(loadSample):
     assert np.abs(forces.sum(axis=0)).max() < 1e-9 * np.abs(forces).sum()
 
 
-@pytest.mark.parametrize("attributes, message", [
-    (dict(gasLaw="incompressible"), "gasLaw = 'incompressible', allowed: 'ideal', 'tabulated' with waterFlow = 'solved'"),
-    (dict(bulkModulus=math.inf), r"bulkModulus \[Pa\] = inf, allowed: finite with waterFlow = 'solved'"),
-    (dict(timeIntegration="explicit"), "timeIntegration = 'explicit', allowed: 'undrainedStable' with waterFlow = 'solved'"),
-    (dict(imbibition=True), "imbibition = 1, allowed: false with waterFlow = 'solved'"),
-])
+@pytest.mark.parametrize(
+    "attributes, message",
+    [
+        (
+            dict(gasLaw="incompressible"),
+            "gasLaw = 'incompressible', allowed: 'ideal', 'tabulated' with waterFlow = 'solved'",
+        ),
+        (dict(bulkModulus=math.inf), r"bulkModulus \[Pa\] = inf, allowed: finite with waterFlow = 'solved'"),
+        (
+            dict(timeIntegration="explicit"),
+            "timeIntegration = 'explicit', allowed: 'undrainedStable' with waterFlow = 'solved'",
+        ),
+        (dict(imbibition=True), "imbibition = 1, allowed: false with waterFlow = 'solved'"),
+    ],
+)
 def test_whatDoesNotGoTogetherIsRefused(loadSample, attributes, message):
     loadSample(1e-3)
     engines = len(O.engines)
@@ -149,11 +174,14 @@ def test_whatDoesNotGoTogetherIsRefused(loadSample, attributes, message):
     assert len(O.engines) == engines
 
 
-@pytest.mark.parametrize("name, value, message", [
-    ("waterFlow", "frozen", "waterFlow = 'frozen', allowed: 'drained', 'solved'"),
-    ("gasViscosity", 0.0, r"gasViscosity \[Pa·s\] = 0, allowed"),
-    ("maxFilling", -1.0, r"maxFilling \[-\] = -1, allowed"),
-])
+@pytest.mark.parametrize(
+    "name, value, message",
+    [
+        ("waterFlow", "frozen", "waterFlow = 'frozen', allowed: 'drained', 'solved'"),
+        ("gasViscosity", 0.0, r"gasViscosity \[Pa·s\] = 0, allowed"),
+        ("maxFilling", -1.0, r"maxFilling \[-\] = -1, allowed"),
+    ],
+)
 def test_badValuesAreRefusedAtAssignment(name, value, message):
     gas = GasInvasionEngine()
     before = getattr(gas, name)

@@ -1,10 +1,22 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Engines in a place of the step where they would do something else than what is meant: a named error with the cure."""
 
 import pytest
 from yade import O
-from yade.wrapper import (CentralConstantAccelerationEngine, ForceEngine, GasInvasionEngine, GravityEngine,
-                          InteractionLoop, MeniscusCohesionEngine, NewtonIntegrator, ParallelEngine, PoreNetworkEngine,
-                          PyRunner, SinglePhaseFlowEngine, WallServoEngine)
+from yade.wrapper import (
+    CentralConstantAccelerationEngine,
+    ForceEngine,
+    GasInvasionEngine,
+    GravityEngine,
+    InteractionLoop,
+    MeniscusCohesionEngine,
+    NewtonIntegrator,
+    ParallelEngine,
+    PoreNetworkEngine,
+    PyRunner,
+    SinglePhaseFlowEngine,
+    WallServoEngine,
+)
 
 from capfrac import injection, sediment
 
@@ -41,25 +53,34 @@ def refused(match):
 
 
 @pytest.mark.parametrize("fluid", FLUIDS)
-@pytest.mark.parametrize("order, message", [
-    ("fluid reset collider loop servo newton", "stands before ForceResetter: .* wiped out"),
-    ("reset fluid collider loop servo newton", "stands before InteractionLoop: .* not there yet"),
-    ("reset collider fluid loop servo newton", "stands before InteractionLoop"),
-    ("reset collider loop newton fluid", "stands after NewtonIntegrator: .* never reach"),
-    ("collider loop fluid newton", "meets no ForceResetter"),
-    ("reset collider loop fluid", "meets contacts, but no NewtonIntegrator: nothing would ever move"),
-    ("reset collider loop loop2 fluid newton", r"meets 2 engines where one is allowed \(InteractionLoop, Interac"),
-    ("reset collider loop fluid newton newton2", "meets 2 engines where one is allowed"),
-    ("reset collider loop fluid fluid2 newton", "meets 2 engines where one is allowed .*; take one out of O.eng"),
-    ("reset collider loop fluid field newton", "stands before CentralConstantAccelerationEngine"),
-    ("reset collider loop fluid push newton", "stands before ForceEngine: the forces of that are not there yet"),
-])
+@pytest.mark.parametrize(
+    "order, message",
+    [
+        ("fluid reset collider loop servo newton", "stands before ForceResetter: .* wiped out"),
+        ("reset fluid collider loop servo newton", "stands before InteractionLoop: .* not there yet"),
+        ("reset collider fluid loop servo newton", "stands before InteractionLoop"),
+        ("reset collider loop newton fluid", "stands after NewtonIntegrator: .* never reach"),
+        ("collider loop fluid newton", "meets no ForceResetter"),
+        ("reset collider loop fluid", "meets contacts, but no NewtonIntegrator: nothing would ever move"),
+        ("reset collider loop loop2 fluid newton", r"meets 2 engines where one is allowed \(InteractionLoop, Interac"),
+        ("reset collider loop fluid newton newton2", "meets 2 engines where one is allowed"),
+        ("reset collider loop fluid fluid2 newton", "meets 2 engines where one is allowed .*; take one out of O.eng"),
+        ("reset collider loop fluid field newton", "stands before CentralConstantAccelerationEngine"),
+        ("reset collider loop fluid push newton", "stands before ForceEngine: the forces of that are not there yet"),
+    ],
+)
 def test_fluidEngineInTheWrongPlace(scene, fluid, order, message):
     here = scene()
     here["collider"].verletDist = 0  # with another, the collider itself asks for an integrator
     engine = FLUIDS[fluid]()
-    here.update(fluid=engine, fluid2=PoreNetworkEngine(), newton2=NewtonIntegrator(), push=ForceEngine(force=(0, 0, 0)),
-                loop2=InteractionLoop([], [], []), field=CentralConstantAccelerationEngine(centralBody=4))
+    here.update(
+        fluid=engine,
+        fluid2=PoreNetworkEngine(),
+        newton2=NewtonIntegrator(),
+        push=ForceEngine(force=(0, 0, 0)),
+        loop2=InteractionLoop([], [], []),
+        field=CentralConstantAccelerationEngine(centralBody=4),
+    )
     O.engines = [here[name] for name in order.split()]
     named = f"{type(engine).__name__} {message}"
     if "fluid2" not in order:
@@ -80,16 +101,31 @@ def test_servoBeforeTheFluid(scene):
         engine.prepare()
 
 
-@pytest.mark.parametrize("order, name, message", [
-    ("servo reset collider loop newton", "WallServoEngine", "stands before ForceResetter"),
-    ("reset collider servo loop newton", "WallServoEngine", "stands before InteractionLoop: the walls would answer"),
-    ("reset collider loop newton servo", "WallServoEngine", "stands after NewtonIntegrator"),
-    ("reset collider loop servo", "WallServoEngine", "no NewtonIntegrator"),
-    ("reset collider loop servo servo2 newton", "WallServoEngine", "2 engines where one is allowed"),
-    ("menisci reset collider loop gas newton", "MeniscusCohesionEngine", "stands before ForceResetter"),
-    ("reset collider loop gas menisci newton", "MeniscusCohesionEngine|GasInvasionEngine", "MeniscusCohesionEngine"),
-    ("reset collider loop gas newton menisci", "MeniscusCohesionEngine|GasInvasionEngine", "MeniscusCohesionEngine"),
-])
+@pytest.mark.parametrize(
+    "order, name, message",
+    [
+        ("servo reset collider loop newton", "WallServoEngine", "stands before ForceResetter"),
+        (
+            "reset collider servo loop newton",
+            "WallServoEngine",
+            "stands before InteractionLoop: the walls would answer",
+        ),
+        ("reset collider loop newton servo", "WallServoEngine", "stands after NewtonIntegrator"),
+        ("reset collider loop servo", "WallServoEngine", "no NewtonIntegrator"),
+        ("reset collider loop servo servo2 newton", "WallServoEngine", "2 engines where one is allowed"),
+        ("menisci reset collider loop gas newton", "MeniscusCohesionEngine", "stands before ForceResetter"),
+        (
+            "reset collider loop gas menisci newton",
+            "MeniscusCohesionEngine|GasInvasionEngine",
+            "MeniscusCohesionEngine",
+        ),
+        (
+            "reset collider loop gas newton menisci",
+            "MeniscusCohesionEngine|GasInvasionEngine",
+            "MeniscusCohesionEngine",
+        ),
+    ],
+)
 def test_servoAndMenisciInTheWrongPlace(scene, order, name, message):
     here = scene()
     here["collider"].verletDist = 0
@@ -113,21 +149,33 @@ def nothing():
     return PyRunner(command="pass", iterPeriod=10**9)
 
 
-@pytest.mark.parametrize("order", [
-    "reset collider loop menisci fluid servo newton",
-    "reset menisci collider loop fluid servo newton",  # forces add up in any order
-    "reset collider loop weight fluid newton", "reset collider loop fluid weight servo newton",  # both are known
-    "dead newtonDead loopDead reset collider loop fluid servo newton newtonDead fluidDead",
-    "reset parallel fluid servo newton",
-    "reset collider loop fluid newtonDead",  # frozen on purpose
-    "fluid", "reset fluid", "fluid reset",  # nothing moves
-])
+@pytest.mark.parametrize(
+    "order",
+    [
+        "reset collider loop menisci fluid servo newton",
+        "reset menisci collider loop fluid servo newton",  # forces add up in any order
+        "reset collider loop weight fluid newton",
+        "reset collider loop fluid weight servo newton",  # both are known
+        "dead newtonDead loopDead reset collider loop fluid servo newton newtonDead fluidDead",
+        "reset parallel fluid servo newton",
+        "reset collider loop fluid newtonDead",  # frozen on purpose
+        "fluid",
+        "reset fluid",
+        "fluid reset",  # nothing moves
+    ],
+)
 def test_placesThatAreRight(scene, order):
     here = scene()
     dead = dict(dead=True)
-    here.update(fluid=gas(), menisci=MeniscusCohesionEngine(label="menisci"), fluidDead=PoreNetworkEngine(**dead),
-                weight=GravityEngine(gravity=(0, -1, 0), warnOnce=False), newtonDead=NewtonIntegrator(**dead),
-                loopDead=InteractionLoop([], [], [], **dead), dead=SinglePhaseFlowEngine(**dead))
+    here.update(
+        fluid=gas(),
+        menisci=MeniscusCohesionEngine(label="menisci"),
+        fluidDead=PoreNetworkEngine(**dead),
+        weight=GravityEngine(gravity=(0, -1, 0), warnOnce=False),
+        newtonDead=NewtonIntegrator(**dead),
+        loopDead=InteractionLoop([], [], [], **dead),
+        dead=SinglePhaseFlowEngine(**dead),
+    )
     if "parallel" in order:
         here["parallel"] = ParallelEngine([[here["collider"], here["loop"]], nothing()])
     O.engines = [here[name] for name in order.split()]

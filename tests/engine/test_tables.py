@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Tables that people bring: all ways of writing the same numbers give the same bits; what is not plain is refused."""
 
 import itertools
@@ -8,11 +9,14 @@ import pytest
 
 from capfrac import packing
 from capfrac.errors import CaseError
-from capfrac.tables import Column, readTable
+from capfrac.io.tables import Column, readTable
 
 #: Three grains: x, y, r [m], as texts of as many digits as a double holds.
-GRAINS = [("0.001002", "0.00173751491", "0.000991938145"), ("3.006e-3", "1.002E-03", "9.4915397e-4"),
-          ("-0.00501", "+.0447302982", "9.54173523e-004")]
+GRAINS = [
+    ("0.001002", "0.00173751491", "0.000991938145"),
+    ("3.006e-3", "1.002E-03", "9.4915397e-4"),
+    ("-0.00501", "+.0447302982", "9.54173523e-004"),
+]
 VALUES = np.array([[float(text) for text in row] for row in GRAINS]).T
 
 
@@ -34,10 +38,22 @@ def refused(path, text, message):
 # ---- read
 
 
-SEPARATORS = {"comma": ",", "comma and blank": ", ", "semicolon": ";", "tab": "\t", "blank": " ", "blanks": "   ",
-              "mixed blanks": " \t "}
-HEADERS = {"plain": "{}", "capitals": "{}", "in a comment": "# {}", "in a bare comment": "#{}",
-           "after comments and blank lines": "# made by hand\n\n{}\n\n"}
+SEPARATORS = {
+    "comma": ",",
+    "comma and blank": ", ",
+    "semicolon": ";",
+    "tab": "\t",
+    "blank": " ",
+    "blanks": "   ",
+    "mixed blanks": " \t ",
+}
+HEADERS = {
+    "plain": "{}",
+    "capitals": "{}",
+    "in a comment": "# {}",
+    "in a bare comment": "#{}",
+    "after comments and blank lines": "# made by hand\n\n{}\n\n",
+}
 ENCODINGS = ("utf-8", "utf-8-sig", "utf-16")
 LINE_ENDS = ("\n", "\r\n", "\r")
 
@@ -59,8 +75,9 @@ def test_sameNumbersHoweverTheyAreWritten(tmp_path, separator, header):
         assert np.array_equal(read(path), VALUES), path.read_bytes()
 
 
-@pytest.mark.parametrize("unit, shift", [("m", 0), ("dm", 1), ("cm", 2), ("mm", 3), ("um", 6), ("µm", 6), ("μm", 6),
-                                         ("nm", 9)])
+@pytest.mark.parametrize(
+    "unit, shift", [("m", 0), ("dm", 1), ("cm", 2), ("mm", 3), ("um", 6), ("µm", 6), ("μm", 6), ("nm", 9)]
+)
 def test_unitsAreConvertedToTheLastBit(tmp_path, unit, shift):
     # The same decimal number, its point moved: 991.938145e-3 mm. Binary factors would miss the last bit of many.
     def moved(text):
@@ -75,8 +92,9 @@ def test_unitsAreConvertedToTheLastBit(tmp_path, unit, shift):
     assert np.array_equal(read(path), VALUES)
 
 
-@pytest.mark.parametrize("name, share", [("radius", 1), ("Radius [m]", 1), ("d", 2), ("D", 2), ("diameter", 2),
-                                         ("Diameter (m)", 2)])
+@pytest.mark.parametrize(
+    "name, share", [("radius", 1), ("Radius [m]", 1), ("d", 2), ("D", 2), ("diameter", 2), ("Diameter (m)", 2)]
+)
 def test_radiusOrDiameter(tmp_path, name, share):
     rows = "\n".join(f"{x}\t{y}\t{float(r) * share!r}" for x, y, r in GRAINS)
     path = write(tmp_path / "packing.csv", f"x\ty\t{name}\n{rows}")
@@ -91,21 +109,24 @@ def test_decimalCommas(tmp_path, separator):
 
 def test_whatOtherProgramsWrite(tmp_path):
     rows = "\n".join("\t".join((x, y, "0", r)) for x, y, r in GRAINS)
-    for text in (f"#format x_y_z_r\n{rows}\n",  # yade.export.text
-                 f"# x y z r\n{rows}\n",  # numpy.savetxt
-                 '"","x","y","r"\n' + "\n".join(f'"{n}","{x}",{y},{r}' for n, (x, y, r) in enumerate(GRAINS)),  # R
-                 ",x,y,r\n" + "\n".join(f"{n},{x},{y},{r}" for n, (x, y, r) in enumerate(GRAINS)),  # pandas
-                 # a spreadsheet with empty cells
-                 "x;y;r;\n" + "\n".join(f"{x};{y};{r};" for x, y, r in GRAINS) + "\n;;;\n;;;\n",
-                 "x,y,r,note\n" + "\n".join(f'{x},{y},{r},"large, round # {x}"' for x, y, r in GRAINS),
-                 "x y r  # in metres\n" + "\n".join(f"  {x}  {y}  {r}  # {x}" for x, y, r in GRAINS),
-                 "  x,  y,  r\n" + "\n".join(f"  {x},  {y},  {r.replace('e', 'D')}" for x, y, r in GRAINS)):  # Fortran
+    for text in (
+        f"#format x_y_z_r\n{rows}\n",  # yade.export.text
+        f"# x y z r\n{rows}\n",  # numpy.savetxt
+        '"","x","y","r"\n' + "\n".join(f'"{n}","{x}",{y},{r}' for n, (x, y, r) in enumerate(GRAINS)),  # R
+        ",x,y,r\n" + "\n".join(f"{n},{x},{y},{r}" for n, (x, y, r) in enumerate(GRAINS)),  # pandas
+        # a spreadsheet with empty cells
+        "x;y;r;\n" + "\n".join(f"{x};{y};{r};" for x, y, r in GRAINS) + "\n;;;\n;;;\n",
+        "x,y,r,note\n" + "\n".join(f'{x},{y},{r},"large, round # {x}"' for x, y, r in GRAINS),
+        "x y r  # in metres\n" + "\n".join(f"  {x}  {y}  {r}  # {x}" for x, y, r in GRAINS),
+        "  x,  y,  r\n" + "\n".join(f"  {x},  {y},  {r.replace('e', 'D')}" for x, y, r in GRAINS),
+    ):  # Fortran
         assert np.array_equal(read(write(tmp_path / "packing.csv", text)), VALUES), text
 
 
 def test_theLastCommentThatNamesTheColumnsCounts(tmp_path):
-    path = write(tmp_path / "packing.csv",
-                 "# r x y\n# r, x [mm], y: seen from above\n# x, y, r\n# in metres\n1,2,3\n# y, r, x\n")
+    path = write(
+        tmp_path / "packing.csv", "# r x y\n# r, x [mm], y: seen from above\n# x, y, r\n# in metres\n1,2,3\n# y, r, x\n"
+    )
     assert np.array_equal(read(path), [[1], [2], [3]])
 
 
@@ -125,10 +146,13 @@ def test_optionalColumns(tmp_path):
 # ---- refused
 
 
-NEEDED = ("needed: x [m], y [m], r [m] (or radius, d, diameter); a unit may stand behind a name: "
-          "'x [mm]', 'y [mm]', 'r [mm]'")
-NO_HEADER = ("numbers, but no line before them that names the columns; needed: a first line 'x, y, r', with the units "
-             "where they are not SI units: 'x [mm]', 'y [mm]', 'r [mm]'")
+NEEDED = (
+    "needed: x [m], y [m], r [m] (or radius, d, diameter); a unit may stand behind a name: 'x [mm]', 'y [mm]', 'r [mm]'"
+)
+NO_HEADER = (
+    "numbers, but no line before them that names the columns; needed: a first line 'x, y, r', with the units "
+    "where they are not SI units: 'x [mm]', 'y [mm]', 'r [mm]'"
+)
 HINT = "; where commas are decimal, separate the fields by ;"
 POSITIVE, FINITE = "allowed: a finite number > 0", "allowed: a finite number"
 REFUSED = [
@@ -151,16 +175,24 @@ REFUSED = [
     ("x,y,r [inch]\n1,2,3\n", "line 1: 'r [inch]' has the unit 'inch', allowed: m, dm, cm, mm, um, µm, μm, nm"),
     ("x,y,r []\n1,2,3\n", "line 1: 'r []' has the unit '', allowed: m, dm, cm, mm, um, µm, μm, nm"),
     # fields too many, too few
-    ("x,y,r\n1,2,3\n9,1,2,3\n",
-     f"line 3: 4 fields (9 | 1 | 2 | 3), allowed: 3, one for each column of line 1 (x | y | r){HINT}"),
-    ("x,y,r\n1.0,2,3\n9.5,1,2,3\n",
-     "line 3: 4 fields (9.5 | 1 | 2 | 3), allowed: 3, one for each column of line 1 (x | y | r)"),
-    ("x,y,r\n1,2,3,\n",
-     f"line 2: 4 fields (1 | 2 | 3 | ), allowed: 3, one for each column of line 1 (x | y | r){HINT}"),
+    (
+        "x,y,r\n1,2,3\n9,1,2,3\n",
+        f"line 3: 4 fields (9 | 1 | 2 | 3), allowed: 3, one for each column of line 1 (x | y | r){HINT}",
+    ),
+    (
+        "x,y,r\n1.0,2,3\n9.5,1,2,3\n",
+        "line 3: 4 fields (9.5 | 1 | 2 | 3), allowed: 3, one for each column of line 1 (x | y | r)",
+    ),
+    (
+        "x,y,r\n1,2,3,\n",
+        f"line 2: 4 fields (1 | 2 | 3 | ), allowed: 3, one for each column of line 1 (x | y | r){HINT}",
+    ),
     ("\n# a\nx y r\n1 2 3\n\n1 2\n", "line 6: 2 fields (1 | 2), allowed: 3, one for each column of line 3 (x | y | r)"),
     ("x;y;r\n1,2,3\n", "line 2: 1 field (1,2,3), allowed: 3, one for each column of line 1 (x | y | r)"),
-    ("# x,y,z,r\n1,2,0,3\n1,2,3\n",
-     "line 3: 3 fields (1 | 2 | 3), allowed: 4, one for each column of line 1 (x | y | z | r)"),
+    (
+        "# x,y,z,r\n1,2,0,3\n1,2,3\n",
+        "line 3: 3 fields (1 | 2 | 3), allowed: 4, one for each column of line 1 (x | y | z | r)",
+    ),
     ('x,y,r\n1,"2,3\n', 'line 2: a quote does not end in: 1,"2,3'),
     # fields
     ("x,y,r\n1,2,zero\n", f"line 2: r = 'zero', {POSITIVE}"),
@@ -180,11 +212,17 @@ REFUSED = [
     ("x;y;r\n\u0661;2;3\n", f"line 2: x = '\u0661', {FINITE}"),
     ("x;y;r\nmm;mm;mm\n1;2;3\n", f"line 2: x = 'mm', {FINITE}"),
     ("x;y;r\n1,234,567;2;3\n", f"line 2: x = '1,234,567', {FINITE}"),
-    ("x;y;r\n1;2;3\n1,5;2;3\n1;2.5;3\n",
-     "line 3: x = '1,5' has a comma, but line 4: y = '2.5' has a point; allowed: one of them, for decimals, "
-     "and none for thousands"),
-    ("x,y,z,r\n1,2,0,3\n1,5,0.1,3\n",
-     "line 3: z = 0.1 m, in line 2 0 m; allowed: one for all, the grains are disks in a plane"),
+    (
+        "x;y;r\n1;2;3\n1,5;2;3\n1;2.5;3\n",
+        (
+            "line 3: x = '1,5' has a comma, but line 4: y = '2.5' has a point; allowed: one of them, for decimals, "
+            "and none for thousands"
+        ),
+    ),
+    (
+        "x,y,z,r\n1,2,0,3\n1,5,0.1,3\n",
+        "line 3: z = 0.1 m, in line 2 0 m; allowed: one for all, the grains are disks in a plane",
+    ),
 ]
 
 

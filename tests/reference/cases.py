@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Small runs that together use every option of the fluid engines, and the tables of numbers they leave.
 
 ``STILL``: the grains do not move, so a result is a matter of the model alone. ``MOVING``: 300 steps with the grains
@@ -11,7 +12,7 @@ import numpy as np
 from yade import O
 from yade.wrapper import ForceResetter, SinglePhaseFlowEngine
 
-from capfrac.gasengine import engineOfGas
+from capfrac.scene.gasengine import engineOfGas
 
 from capfrac import injection, sediment
 
@@ -214,7 +215,7 @@ STILL = {
         gasLaw="ideal",
     ),
     **{
-        f"flow-{scheme}": (lambda build, scheme=scheme: rigidFlow(build, scheme))
+        f"flow-{scheme}": lambda build, scheme=scheme: rigidFlow(build, scheme)
         for scheme in ("explicit", "implicit", "undrainedStable")
     },
 }

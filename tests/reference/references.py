@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The kept references: written by ``capfrac python tests/reference/references.py [CASE ...]``, read by the tests.
 
 One folder a case in ``data``, one CSV a table, numbers in 17 digits, which give back every bit. They are

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What the engines give against what they gave: the same events in order, and the same numbers (see tolerances.py)."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """How far a number may be from its reference: relative to its column, and what counts as zero there.
 
 A column's tolerance is that of its kind of case (``RELATIVE``) times the larger of the two numbers and of the column's

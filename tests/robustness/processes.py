@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The command as a process of its own: run to the end, or watched until it has come to some point. A small packing."""
 
 import time

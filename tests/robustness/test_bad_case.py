@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Case files with mistakes: refused by the key's name with the value and what is allowed, before anything is done."""
 
 import re
@@ -6,10 +7,15 @@ import numpy as np
 import pytest
 from yade import O
 
-from capfrac import case, injection, packing
+from capfrac import case, injection
 from capfrac.errors import CaseError
 
-GOOD = {"grains": {"rMin": 1e-3}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "inlet": {"pores": 3}, "ramp": {"start": 100, "increment": 1, "max": 200}}
+GOOD = {
+    "grains": {"rMin": 1e-3},
+    "stress": {"vertical": 10e3, "horizontal": 8e3},
+    "inlet": {"pores": 3},
+    "ramp": {"start": 100, "increment": 1, "max": 200},
+}
 
 
 def changed(**entries):
@@ -52,19 +58,29 @@ BAD = [
     (dict(output__pressures=["x"]), r"output.pressures = \['x'\]"),
     (dict(case__assumptions=[1]), "case.assumptions, allowed: a list of texts"),
     # impossible together
-    (dict(gas__snapOff=True, gas__imbibition=True, gas__contactAngle=50.0), r"gas.contactAngle = 50.0, allowed: < 45 \[degrees\] with gas.snapOff"),
+    (
+        dict(gas__snapOff=True, gas__imbibition=True, gas__contactAngle=50.0),
+        r"gas.contactAngle = 50.0, allowed: < 45 \[degrees\] with gas.snapOff",
+    ),
     (dict(gas__snapOff=True), "gas.snapOff = true, allowed: false without gas.imbibition"),
     (dict(gas__filmConductance=1e-12), "gas.filmConductance = 1e-12, allowed: 0 without gas.trapping"),
     (dict(gas__filmConductance=-1.0), "gas.filmConductance = -1"),
     (dict(gas__gravity=[9.81]), r"gas.gravity = \[9.81\], allowed: two finite numbers"),
     (dict(grains__rMax=0.5e-3), "grains.rMax = 0.0005 m, allowed: >= grains.rMin = 0.001 m"),
     (dict(grains__rMax=20e-3), "grains.rMax / grains.rMin = 20, allowed: up to 10"),
-    (dict(inlet__pores=0), "no inlet or several; give one of inlet.pores, inlet.whole, inlet.from with inlet.to, inlet.points"),
-    (dict(inlet__points=[[1e-3, 1e-3]]), "no inlet or several"), (dict(inlet__middle=1e-3), "no inlet or several"),
+    (
+        dict(inlet__pores=0),
+        "no inlet or several; give one of inlet.pores, inlet.whole, inlet.from with inlet.to, inlet.points",
+    ),
+    (dict(inlet__points=[[1e-3, 1e-3]]), "no inlet or several"),
+    (dict(inlet__middle=1e-3), "no inlet or several"),
     (dict(inlet__pores=0, inlet__middle=-1e-3), r"inlet.middle = -0.001, allowed: a number >= 0 \[m\]"),
     (dict(gas__law="cubic"), "gas.law = 'cubic', allowed: 'incompressible', 'ideal', 'tabulated'"),
     (dict(gas__temperature=0), r"gas.temperature = 0, allowed: a number > 0 \[K\]"),
-    (dict(gas__law="ideal", gas__datum=-1.0), r"gas.datum = -1.0 Pa, allowed: > 0, an absolute pressure, with gas.law = 'ideal'"),
+    (
+        dict(gas__law="ideal", gas__datum=-1.0),
+        r"gas.datum = -1.0 Pa, allowed: > 0, an absolute pressure, with gas.law = 'ideal'",
+    ),
     (dict(gas__law="tabulated"), "gas.table has 0 pairs, allowed: at least two with gas.law = 'tabulated'"),
     (dict(gas__table=[[1e5, 1.0], [2e5]]), r"gas.table holds \[200000.0\], allowed: pairs"),
     (dict(gas__table=[[1e5, 1.0], [1e5, 2.0]]), "gas.table = .*, allowed: ascending"),
@@ -73,22 +89,49 @@ BAD = [
     (dict(supply__rate=-1e-6), r"supply.rate = -1e-06, allowed: a number >= 0 \[kg/s\]"),
     (dict(supply__maxTime=0), r"supply.maxTime = 0, allowed: a number > 0 \[s\]"),
     (dict(supply__historyInterval=-1), "supply.historyInterval = -1"),
-    (dict(supply__control="rate", supply__rate=1e-6), "supply.control = 'rate', allowed: 'pressure' with gas.law = 'incompressible', as no pressure follows"),
-    (dict(supply__control="rate", gas__law="ideal"), r"supply.rate = 0, allowed: > 0 \[kg/s\] with supply.control = 'rate'"),
-    (dict(supply__control="reservoir", gas__law="ideal"), r"supply.reservoirVolume = 0, allowed: > 0 \[m\^3\] with supply.control = 'reservoir'"),
-    (dict(supply__control="rate", supply__rate=1e-6, gas__law="ideal", supply__program=[150.0]), "supply.program = .*, allowed: none with supply.control = 'rate'"),
+    (
+        dict(supply__control="rate", supply__rate=1e-6),
+        "supply.control = 'rate', allowed: 'pressure' with gas.law = 'incompressible', as no pressure follows",
+    ),
+    (
+        dict(supply__control="rate", gas__law="ideal"),
+        r"supply.rate = 0, allowed: > 0 \[kg/s\] with supply.control = 'rate'",
+    ),
+    (
+        dict(supply__control="reservoir", gas__law="ideal"),
+        r"supply.reservoirVolume = 0, allowed: > 0 \[m\^3\] with supply.control = 'reservoir'",
+    ),
+    (
+        dict(supply__control="rate", supply__rate=1e-6, gas__law="ideal", supply__program=[150.0]),
+        "supply.program = .*, allowed: none with supply.control = 'rate'",
+    ),
     (dict(inlet__pores=0, inlet__from=1e-3), r"inlet.from = 0.001, inlet.to = None; allowed: both given, from < to"),
     (dict(inlet__pores=0, inlet__from=2e-3, inlet__to=1e-3), "inlet.from = 0.002, inlet.to = 0.001"),
     (dict(inlet__pores=0, inlet__points=[[1e-3]]), r"inlet.points holds \[0.001\], allowed: pairs \[x, y\] in metres"),
     (dict(inlet__outlet="bottom"), "inlet.wall = inlet.outlet = 'bottom', allowed: two different walls"),
     (dict(ramp__max=50), "ramp.max = 50.0 Pa, allowed: >= ramp.start = 100.0 Pa"),
     (dict(ramp__minLevelSteps=30000), "ramp.maxLevelSteps = 20000, allowed: >= ramp.minLevelSteps = 30000"),
-    (dict(gas__entryLaw="mayerStowePrincen", gas__contactAngle=10), "gas.contactAngle = 10.0, allowed: 0 with gas.entryLaw = 'mayerStowePrincen'"),
-    (dict(water__flow="frozen"), "water.flow = 'frozen', allowed: 'drained', 'solved'"), (dict(water__viscosity=0), "water.viscosity = 0"),
-    (dict(water__bulkModulus=-1), "water.bulkModulus = -1"), (dict(gas__viscosity=0), "gas.viscosity = 0"), (dict(water__conductanceFactor=0), "water.conductanceFactor = 0"),
-    (dict(water__flow="solved"), "gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved'"),
-    (dict(water__flow="solved", gas__law="ideal", gas__imbibition=True), "gas.imbibition = true, allowed: false with water.flow = 'solved'"),
-    (dict(water__flow="solved", gas__law="ideal", gas__waterDensity=1000, gas__gravity=[0]), r"gas.gravity = \[0\], allowed: two finite numbers"),
+    (
+        dict(gas__entryLaw="mayerStowePrincen", gas__contactAngle=10),
+        "gas.contactAngle = 10.0, allowed: 0 with gas.entryLaw = 'mayerStowePrincen'",
+    ),
+    (dict(water__flow="frozen"), "water.flow = 'frozen', allowed: 'drained', 'solved'"),
+    (dict(water__viscosity=0), "water.viscosity = 0"),
+    (dict(water__bulkModulus=-1), "water.bulkModulus = -1"),
+    (dict(gas__viscosity=0), "gas.viscosity = 0"),
+    (dict(water__conductanceFactor=0), "water.conductanceFactor = 0"),
+    (
+        dict(water__flow="solved"),
+        "gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved'",
+    ),
+    (
+        dict(water__flow="solved", gas__law="ideal", gas__imbibition=True),
+        "gas.imbibition = true, allowed: false with water.flow = 'solved'",
+    ),
+    (
+        dict(water__flow="solved", gas__law="ideal", gas__waterDensity=1000, gas__gravity=[0]),
+        r"gas.gravity = \[0\], allowed: two finite numbers",
+    ),
 ]
 
 
@@ -104,7 +147,9 @@ def test_mistakeIsRefusedByName(entries, message, tmp_path):
     assert list(tmp_path.iterdir()) == [] and len(O.bodies) == 0
 
 
-@pytest.mark.parametrize("missing", ["grains.rMin", "stress.vertical", "stress.horizontal", "ramp.start", "ramp.increment", "ramp.max"])
+@pytest.mark.parametrize(
+    "missing", ["grains.rMin", "stress.vertical", "stress.horizontal", "ramp.start", "ramp.increment", "ramp.max"]
+)
 def test_missingKeyIsNamed(missing):
     raw = changed()
     section, key = missing.split(".")
@@ -114,7 +159,13 @@ def test_missingKeyIsNamed(missing):
 
 
 def test_caseFilesThatCannotBeRead(tmp_path):
-    with pytest.raises(CaseError, match="the case 'nowhere.toml' cannot be read .*; shipped cases: figure14, figure14_vertical, figure15, figure15_solved, figure16, figure16_rate, figure16_small, figure16_solved, hydrate_ridge"):
+    with pytest.raises(
+        CaseError,
+        match=(
+            "the case 'nowhere.toml' cannot be read .*; shipped cases: figure14, figure14_vertical, figure15,"
+            " figure15_solved, figure16, figure16_rate, figure16_small, figure16_solved, hydrate_ridge"
+        ),
+    ):
         case.readCase("nowhere.toml")
     (tmp_path / "broken.toml").write_text("[grains\n")
     with pytest.raises(CaseError, match="broken.toml is not valid TOML: "):
@@ -128,20 +179,32 @@ def test_caseFilesThatCannotBeRead(tmp_path):
         case.readCase(tmp_path / "bytes.toml")
 
 
-@pytest.mark.parametrize("override, message", [
-    ("grains.count", "'grains.count' is not of the form section.key=value"), ("count=3", "'count=3' is not of the form"),
-    ("inlet.wall=left", "inlet.wall = left: not a TOML value"), ("grains.cuont=3", "unknown key grains.cuont; did you mean 'count'")])
+@pytest.mark.parametrize(
+    "override, message",
+    [
+        ("grains.count", "'grains.count' is not of the form section.key=value"),
+        ("count=3", "'count=3' is not of the form"),
+        ("inlet.wall=left", "inlet.wall = left: not a TOML value"),
+        ("grains.cuont=3", "unknown key grains.cuont; did you mean 'count'"),
+    ],
+)
 def test_badOverrides(override, message):
     with pytest.raises(CaseError, match=re.escape(message)):
         case.readCase("figure15", [override])
 
 
-@pytest.mark.parametrize("text, message", [
-    ("x,y\n1,2\n", "line 1: columns 'x', 'y'; needed: x"), ("1,2,3\n", "line 1: numbers, but no line"),
-    ("x,y,r\n", "has no rows"),
-    ("x,y,r\n1,1,1\n9,1,2,1\n", "line 3: 4 fields"), ("x,y,r,r\n1,1,1,2\n", "line 1: the columns 'r' and 'r'"),
-    ("x,y,r\n1,1,1\n1,2,zero\n", "line 3: r = 'zero', allowed: a finite number > 0"),
-    ("x,y,r\n1,1,-1\n", "line 2: r = '-1'")])
+@pytest.mark.parametrize(
+    "text, message",
+    [
+        ("x,y\n1,2\n", "line 1: columns 'x', 'y'; needed: x"),
+        ("1,2,3\n", "line 1: numbers, but no line"),
+        ("x,y,r\n", "has no rows"),
+        ("x,y,r\n1,1,1\n9,1,2,1\n", "line 3: 4 fields"),
+        ("x,y,r,r\n1,1,1,2\n", "line 1: the columns 'r' and 'r'"),
+        ("x,y,r\n1,1,1\n1,2,zero\n", "line 3: r = 'zero', allowed: a finite number > 0"),
+        ("x,y,r\n1,1,-1\n", "line 2: r = '-1'"),
+    ],
+)
 def test_badPackingsLeaveNothing(tmp_path, text, message):
     # All that a table may not be: tests/engine/test_tables.py.
     (tmp_path / "packing.csv").write_text(text)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A packing that contradicts its case is refused, with what was meant; what is only odd is told and kept."""
 
 import re
@@ -5,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from capfrac import casepacking, injection, packing
-from capfrac.case import resolveCase
+from capfrac import injection, packing
+from capfrac.case import packing as casepacking, resolveCase
 from capfrac.errors import CaseError
 from capfrac.sweep import readSweep
 from processes import run
@@ -31,14 +32,26 @@ def write(path, scale=1.0, header="x,y,r", radius=1e-3, places=1.0):
     """23 grains on a lattice, radii 0.95 to 0.99 ``radius``, numbers times ``scale``, x and y times ``places`` more."""
     x, y, r = packing.hexagonal(20, radius)
     r = r * np.linspace(0.95, 0.99, len(r))
-    path.write_text(header + "\n" + "".join(f"{a * places * scale!r},{b * places * scale!r},{c * scale!r}\n"
-                                            for a, b, c in zip(x.tolist(), y.tolist(), r.tolist())))
+    path.write_text(
+        header
+        + "\n"
+        + "".join(
+            f"{a * places * scale!r},{b * places * scale!r},{c * scale!r}\n"
+            for a, b, c in zip(x.tolist(), y.tolist(), r.tolist())
+        )
+    )
     return path
 
 
 def caseOf(path, **grains):
-    return resolveCase({"grains": {"packing": str(path), **grains}, "stress": {"vertical": 10e3, "horizontal": 10e3},
-                        "inlet": {"pores": 1}, "ramp": {"start": 50, "increment": 10, "max": 400}})
+    return resolveCase(
+        {
+            "grains": {"packing": str(path), **grains},
+            "stress": {"vertical": 10e3, "horizontal": 10e3},
+            "inlet": {"pores": 1},
+            "ramp": {"start": 50, "increment": 10, "max": 400},
+        }
+    )
 
 
 def told(path, **grains):
@@ -53,9 +66,11 @@ def test_roundedRadiiAgree(tmp_path, rMin):
 @pytest.mark.parametrize("scale, unit", [(1e3, "mm"), (1e2, "cm"), (1e6, "um"), (1e9, "nm")])
 def test_forgottenUnits(tmp_path, scale, unit):
     path = write(tmp_path / "p.csv", scale)
-    message = (f"grains.rMin = 0.00094 m, but the smallest radius in {path} (line 2) is {0.95e-3 * scale:g} m, "
-               f"{0.95 / 0.94 * scale:.4g} times that; allowed: about the same, or no grains.rMin; are the numbers of "
-               f"the file in {unit}? Then name its columns x [{unit}], y [{unit}], r [{unit}]")
+    message = (
+        f"grains.rMin = 0.00094 m, but the smallest radius in {path} (line 2) is {0.95e-3 * scale:g} m, "
+        f"{0.95 / 0.94 * scale:.4g} times that; allowed: about the same, or no grains.rMin; are the numbers of "
+        f"the file in {unit}? Then name its columns x [{unit}], y [{unit}], r [{unit}]"
+    )
     with pytest.raises(CaseError, match=f"^{re.escape(message)}$"):
         told(path, rMin=0.94e-3)
     # What the message says is the cure.
@@ -81,10 +96,12 @@ def test_largestRadius(tmp_path):
 
 def test_otherSizesAreTold(tmp_path):
     path = write(tmp_path / "p.csv", 2)
-    text, = told(path, rMin=0.95e-3)
-    assert text == (f"grains.rMin = 0.00095 m, but the smallest radius in {path} (line 2) is 0.0019 m; the file "
-                    "counts; are these diameters? Then call the column d")
-    text, = told(write(tmp_path / "p.csv", 1.5), rMin=0.95e-3)
+    (text,) = told(path, rMin=0.95e-3)
+    assert (
+        text == f"grains.rMin = 0.00095 m, but the smallest radius in {path} (line 2) is 0.0019 m; the file "
+        "counts; are these diameters? Then call the column d"
+    )
+    (text,) = told(write(tmp_path / "p.csv", 1.5), rMin=0.95e-3)
     assert text.endswith("is 0.001425 m; the file counts")
 
 
@@ -98,9 +115,11 @@ def test_count(tmp_path):
 
 
 def test_boulders(tmp_path):
-    text, = told(write(tmp_path / "p.csv", 1e3), rMin=0.95)
-    assert text.endswith(": r = 0.99 m, a boulder; are the numbers of the file in mm or um? Then write the unit behind "
-                         "the names of its columns, r [mm]")
+    (text,) = told(write(tmp_path / "p.csv", 1e3), rMin=0.95)
+    assert text.endswith(
+        ": r = 0.99 m, a boulder; are the numbers of the file in mm or um? Then write the unit behind "
+        "the names of its columns, r [mm]"
+    )
 
 
 @pytest.mark.parametrize("places", [1e2, 1e3, 1e6])
@@ -143,7 +162,7 @@ def test_warningsAreKeptAndPrinted(command, tmp_path):
     case["output"].update(pictures="none", fields=False)
     lines = []
     summary = injection.inject(case, tmp_path / "run", report=lines.append)
-    text, = summary["warnings"]
+    (text,) = summary["warnings"]
     assert "the file counts" in text and f"warning: {text}" in lines
 
 
@@ -165,9 +184,15 @@ def test_seedWithAPackingIsNoOtherSample(command, tmp_path):
 
 def test_packingWithoutRadiiInTheCase(tmp_path):
     path = write(tmp_path / "p.csv")
-    case = resolveCase({"grains": {"packing": str(path)}, "stress": {"vertical": 10e3, "horizontal": 10e3},
-                        "inlet": {"pores": 1}, "ramp": {"start": 50, "increment": 10, "max": 400}})
+    case = resolveCase(
+        {
+            "grains": {"packing": str(path)},
+            "stress": {"vertical": 10e3, "horizontal": 10e3},
+            "inlet": {"pores": 1},
+            "ramp": {"start": 50, "increment": 10, "max": 400},
+        }
+    )
     assert casepacking.checkPacking(case) == []
     write(path, 1e3)  # nothing to compare with, but grains of a metre
-    text, = casepacking.checkPacking(case)
+    (text,) = casepacking.checkPacking(case)
     assert "a boulder; are the numbers of the file in mm or um?" in text

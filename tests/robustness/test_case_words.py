@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Errors of the command speak of the keys of a case, not of attributes of engines; and inlets as a case states them."""
 
 import math
@@ -7,13 +8,17 @@ import pytest
 from yade import O
 from yade.wrapper import GasInvasionEngine
 
-from capfrac import casescene, casewords, injection, sediment
-from capfrac.case import KEYS, resolveCase
-from capfrac.casewords import inCaseWords
+from capfrac import casescene, injection, sediment
+from capfrac.case import KEYS, resolveCase, words
+from capfrac.case.words import inCaseWords
 from capfrac.errors import CaseError, SampleError
 
-GOOD = {"grains": {"rMin": 1e-3}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "inlet": {"pores": 3},
-        "ramp": {"start": 100, "increment": 1, "max": 200}}
+GOOD = {
+    "grains": {"rMin": 1e-3},
+    "stress": {"vertical": 10e3, "horizontal": 8e3},
+    "inlet": {"pores": 3},
+    "ramp": {"start": 100, "increment": 1, "max": 200},
+}
 
 
 def changed(**entries):
@@ -28,13 +33,15 @@ def changed(**entries):
 
 
 def test_tablesNameWhatThereIs():
-    assert set(casewords.KEYS.values()) <= {key.path for key in KEYS}
-    assert set(casewords.GAS) <= set(GasInvasionEngine().dict())
-    assert set(casewords.SEDIMENT) <= {field for field in sediment.Sediment.__dataclass_fields__}
+    assert set(words.KEYS.values()) <= {key.path for key in KEYS}
+    assert set(words.GAS) <= set(GasInvasionEngine().dict())
+    assert set(words.SEDIMENT) <= {field for field in sediment.Sediment.__dataclass_fields__}
 
 
-@pytest.mark.parametrize("name", [name for name, value in GasInvasionEngine().dict().items()
-                                  if name in casewords.KEYS and not isinstance(value, bool)])
+@pytest.mark.parametrize(
+    "name",
+    [name for name, value in GasInvasionEngine().dict().items() if name in words.KEYS and not isinstance(value, bool)],
+)
 def test_whatTheEngineRefusesIsNamedByItsKey(name):
     """Every attribute that a key of a case stands for, with a value that no case could have."""
     engine = GasInvasionEngine()
@@ -47,18 +54,27 @@ def test_whatTheEngineRefusesIsNamedByItsKey(name):
     with pytest.raises(ValueError) as problem:
         setattr(engine, name, wrong)
     text = inCaseWords(str(problem.value))
-    assert casewords.KEYS[name] in text and not re.search(rf"(?<![\w.]){name}\b", text)
+    assert words.KEYS[name] in text and not re.search(rf"(?<![\w.]){name}\b", text)
 
 
-@pytest.mark.parametrize("text, found", [
-    ("gravity [m/s²] = (0, -9.81), allowed: (0, 0)", "gas.gravity [m/s²] = (0, -9.81), allowed: (0, 0)"),
-    ("the gravity of the case; viscosity matters", "the gravity of the case; viscosity matters"),
-    ("MeniscusCohesionEngine.chi [-] = -1", "cohesion.meniscusChi [-] = -1"),
-    ("no inlet: between inletFrom and inletTo", "no inlet: between inlet.from and inlet.to"),
-    ("grains.rMin = 1, rMinimum = 2, capfrac.rMax", "grains.rMin = 1, rMinimum = 2, capfrac.rMax"),
-    ("stressV = 1e+09 Pa, or a larger normalStiffness", "stress.vertical = 1e+09 Pa, or a larger grains.normalStiffness"),
-    ("gasLaw = 'tabulated': beyond the last pair of gasTable", "gas.law = 'tabulated': beyond the last pair of gas.table"),
-])
+@pytest.mark.parametrize(
+    "text, found",
+    [
+        ("gravity [m/s²] = (0, -9.81), allowed: (0, 0)", "gas.gravity [m/s²] = (0, -9.81), allowed: (0, 0)"),
+        ("the gravity of the case; viscosity matters", "the gravity of the case; viscosity matters"),
+        ("MeniscusCohesionEngine.chi [-] = -1", "cohesion.meniscusChi [-] = -1"),
+        ("no inlet: between inletFrom and inletTo", "no inlet: between inlet.from and inlet.to"),
+        ("grains.rMin = 1, rMinimum = 2, capfrac.rMax", "grains.rMin = 1, rMinimum = 2, capfrac.rMax"),
+        (
+            "stressV = 1e+09 Pa, or a larger normalStiffness",
+            "stress.vertical = 1e+09 Pa, or a larger grains.normalStiffness",
+        ),
+        (
+            "gasLaw = 'tabulated': beyond the last pair of gasTable",
+            "gas.law = 'tabulated': beyond the last pair of gas.table",
+        ),
+    ],
+)
 def test_words(text, found):
     assert inCaseWords(text) == found
     assert inCaseWords(found) == found
@@ -73,7 +89,9 @@ def test_errorsKeepTheirKind():
 
 def test_errorOfTheEnginesEndsACaseInItsWords(tmp_path):
     case = changed(grains__count=20, inlet__pores=99)
-    with pytest.raises(CaseError, match=r"^inlet: inlet.pores = 99, allowed: 1 … \d, the number of pores along the bottom"):
+    with pytest.raises(
+        CaseError, match=r"^inlet: inlet.pores = 99, allowed: 1 … \d, the number of pores along the bottom"
+    ):
         injection.inject(case, tmp_path / "run", report=lambda text: None)
     assert not (tmp_path / "run").exists()
 
@@ -121,14 +139,19 @@ def test_inletFarBeyondTheWall(loadSample, sceneState, begin, end):
     loadSample()
     case = changed(inlet__from=begin * length("bottom"), inlet__to=end * length("bottom"))
     before = sceneState()
-    with pytest.raises(CaseError, match=r"inlet.from = .*, inlet.to = .* m, allowed: 0 … 0.0\d+ m, the length of the bottom "
-                                        "wall, .*; the whole wall is inlet.whole = true"):
+    with pytest.raises(
+        CaseError,
+        match=r"inlet.from = .*, inlet.to = .* m, allowed: 0 … 0.0\d+ m, the length of the bottom "
+        "wall, .*; the whole wall is inlet.whole = true",
+    ):
         casescene.startGas(case)
     assert sceneState() == before
 
 
-@pytest.mark.parametrize("inlet", [dict(inlet__whole=True, inlet__pores=2), dict(inlet__whole=False),
-                                   dict(inlet__whole=True, inlet__middle=1e-3)])
+@pytest.mark.parametrize(
+    "inlet",
+    [dict(inlet__whole=True, inlet__pores=2), dict(inlet__whole=False), dict(inlet__whole=True, inlet__middle=1e-3)],
+)
 def test_oneWayToStateTheInlet(inlet):
     with pytest.raises(CaseError, match="no inlet or several; give one of inlet.pores, inlet.whole, inlet.from with"):
         changed(**inlet)
@@ -159,7 +182,9 @@ def test_refusedInletLeavesInfiniteEnds(loadSample):
 def test_gravityWithoutDensitiesIsRefused(loadSample, waterFlow):
     loadSample()
     ramp = dict(start=100, increment=1, max=200, pores=3, waterFlow=waterFlow, gasLaw="ideal")
-    with pytest.raises(CaseError, match=r"gravity \[m/s²\] = \(0, -9.81\), allowed: \(0, 0\) while no fluid has a density"):
+    with pytest.raises(
+        CaseError, match=r"gravity \[m/s²\] = \(0, -9.81\), allowed: \(0, 0\) while no fluid has a density"
+    ):
         injection.startInjection(**ramp, gravity=(0, -9.81))
     assert not any(engine.label == "gas" for engine in O.engines)
     gas = injection.startInjection(**ramp, gravity=(0, -9.81), gasDensity=80)

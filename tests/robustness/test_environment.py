@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Neither the environment nor the files beside a script decide what capfrac computes, or whether it runs."""
 
 import csv
@@ -13,8 +14,8 @@ from yade.wrapper import InsertionSortCollider
 import capfrac
 from capfrac import environment, snapshot
 from capfrac.errors import CapfracError
+from capfrac.run.folder import readSummary
 from capfrac.sweep import readSweep, runSweep
-from capfrac.runfolder import readSummary
 from processes import run
 
 #: A run of a second: 30 grains up to the breakthrough.

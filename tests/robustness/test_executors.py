@@ -1,4 +1,6 @@
-"""Whatever runs the points of a sweep: executors of this machine, of a cluster, some that fail, none to be shut down."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Whatever runs the points of a sweep: executors of this machine, of a cluster, some that fail, none to be shut down.
+"""
 
 import csv
 import os
@@ -12,8 +14,8 @@ import pytest
 
 from capfrac import environment
 from capfrac.errors import CapfracError, CaseError
+from capfrac.run.folder import readSummary
 from capfrac.sweep import execution, readSweep, runSweep
-from capfrac.runfolder import readSummary
 from processes import waitFor
 
 #: Points of a second each: 30 grains, one level.

@@ -1,4 +1,7 @@
-"""The command, interrupted and killed: the run folder stays usable, the same command ends the run as if nothing had been."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The command, interrupted and killed: the run folder stays usable, the same command ends the run as if nothing had
+been.
+"""
 
 import json
 import os
@@ -8,12 +11,29 @@ import time
 import pytest
 
 from capfrac.case import readCase
-from capfrac.runfolder import RunFolder
+from capfrac.run.folder import RunFolder
 from processes import run, waitFor
 
 #: A run of some seconds: 40 grains, twenty levels of 300 steps or more, no pictures but those at the start and the end.
-SMALL = ["figure15", "-s", "grains.count=40", "-s", "inlet.pores=1", "-s", "ramp.start=150", "-s", "ramp.increment=1", "-s", "ramp.max=170", "-s", "ramp.minLevelSteps=300",
-         "-s", "output.pressures=[]", "-s", "output.fields=false"]
+SMALL = [
+    "figure15",
+    "-s",
+    "grains.count=40",
+    "-s",
+    "inlet.pores=1",
+    "-s",
+    "ramp.start=150",
+    "-s",
+    "ramp.increment=1",
+    "-s",
+    "ramp.max=170",
+    "-s",
+    "ramp.minLevelSteps=300",
+    "-s",
+    "output.pressures=[]",
+    "-s",
+    "output.fields=false",
+]
 
 
 def summaryOf(folder):
@@ -52,7 +72,9 @@ def test_interruptedRunIsTakenUpAndEndsTheSame(command, uninterrupted, tmp_path,
     for name in ("events.csv", "pc_saturation.csv"):
         assert (folder / name).read_bytes() == (uninterrupted / name).read_bytes()
     whole, taken = summaryOf(uninterrupted), summaryOf(folder)
-    assert {k: v for k, v in taken.items() if "econds" not in k} == {k: v for k, v in whole.items() if "econds" not in k}
+    assert {k: v for k, v in taken.items() if "econds" not in k} == {
+        k: v for k, v in whole.items() if "econds" not in k
+    }
 
 
 def test_interruptedWhileTheSampleIsMadeLeavesNothing(command, tmp_path):
@@ -75,11 +97,20 @@ def test_killedWhileTheSampleIsMadeCanBeRunAgain(command, tmp_path):
     assert RunFolder(folder, readCase("figure15")).summary == {}
 
 
-@pytest.mark.parametrize("arguments, status, message", [
-    (["inject", "nowhere"], 1, "capfrac: error: the case 'nowhere' cannot be read"),
-    (["inject", "figure15", "-s", "grains.rmin=1"], 1, "unknown key grains.rmin; did you mean 'rMin'?"),
-    (["inject", "figure15", "-o", "/dev/null/run"], 1, "the run folder /dev/null/run cannot be written: Not a directory"),
-    (["inject"], 2, "the following arguments are required: case"), (["injekt"], 2, "invalid choice: 'injekt'")])
+@pytest.mark.parametrize(
+    "arguments, status, message",
+    [
+        (["inject", "nowhere"], 1, "capfrac: error: the case 'nowhere' cannot be read"),
+        (["inject", "figure15", "-s", "grains.rmin=1"], 1, "unknown key grains.rmin; did you mean 'rMin'?"),
+        (
+            ["inject", "figure15", "-o", "/dev/null/run"],
+            1,
+            "the run folder /dev/null/run cannot be written: Not a directory",
+        ),
+        (["inject"], 2, "the following arguments are required: case"),
+        (["injekt"], 2, "invalid choice: 'injekt'"),
+    ],
+)
 def test_commandSaysWhatIsWrongInOneSentence(command, tmp_path, arguments, status, message):
     returned, output, errors = run(lambda *a: command(*a, cwd=tmp_path), *arguments)
     assert returned == status and output == "" and message in errors

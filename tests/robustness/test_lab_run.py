@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Laboratory tests that are interrupted: stages, checkpoints and results of LabRun, and folders that cannot be used.
 
 A test here is four grains that jostle in a box, 400 steps in chunks of 50, the height of the top one written down after
@@ -44,10 +45,18 @@ def takeUp(folder, parameters=PARAMETERS, **options):
 
 
 def place():
-    """Three grains in a row and one above: pressed into each other a little, so that they jump and turn from the beginning."""
+    """Three grains in a row and one above: pressed into each other a little, so that they jump and turn from the
+    beginning.
+    """
     sample = sediment.Sediment(grainCount=4, rMin=1e-3, rMax=1e-3)
     r, u = 1e-3, 1e-6
-    sediment.buildScene(sample, [r - u, 3 * r - 2 * u, 5 * r - 3 * u, 2 * r], [r - u, r, r - u, 2.7 * r], [r] * 4, (0, 6 * r - 4 * u, 0, 8 * r))
+    sediment.buildScene(
+        sample,
+        [r - u, 3 * r - 2 * u, 5 * r - 3 * u, 2 * r],
+        [r - u, r, r - u, 2.7 * r],
+        [r] * 4,
+        (0, 6 * r - 4 * u, 0, 8 * r),
+    )
     sediment.startSettling(sample, 1000.0)
 
 
@@ -65,7 +74,11 @@ def fall(run, until=STEPS, killedAt=None):
 
 def bits():
     bodies = [(tuple(b.state.pos), tuple(b.state.vel), tuple(b.state.angVel), tuple(b.state.angMom)) for b in O.bodies]
-    contacts = sorted((i.id1, i.id2, tuple(i.phys.normalForce), tuple(i.phys.shearForce), i.phys.cohesionBroken) for i in O.interactions if i.isReal)
+    contacts = sorted(
+        (i.id1, i.id2, tuple(i.phys.normalForce), tuple(i.phys.shearForce), i.phys.cohesionBroken)
+        for i in O.interactions
+        if i.isReal
+    )
     return bodies, contacts, [type(e).__name__ for e in O.engines], [e.label for e in O.engines], O.iter, O.dt, O.time
 
 
@@ -437,13 +450,20 @@ def unfinished(folder):
 
 
 @pytest.mark.parametrize("state", [unfinished, finished])
-@pytest.mark.parametrize("test, parameters", [("fall", {**PARAMETERS, "grains": {"rMin": 2e-3, "seed": 1}}), ("settle", PARAMETERS), ("fall", {})])
+@pytest.mark.parametrize(
+    "test, parameters",
+    [("fall", {**PARAMETERS, "grains": {"rMin": 2e-3, "seed": 1}}), ("settle", PARAMETERS), ("fall", {})],
+)
 def test_runOfOtherParametersIsRefused(labFolder, state, test, parameters):
     state(labFolder)
     before = contents(labFolder)
     with pytest.raises(RunFolderError) as problem:
         LabRun(test, parameters, labFolder)
-    assert str(problem.value) == f"the run folder {labFolder} holds a run with other parameters; choose another folder, or --restart to discard that run"
+    assert (
+        str(problem.value)
+        == f"the run folder {labFolder} holds a run with other parameters; choose another folder, or --restart to"
+        " discard that run"
+    )
     assert contents(labFolder) == before
 
 
@@ -458,14 +478,30 @@ def test_foreignFolderIsRefused(tmp_path):
 GOOD = {"data": {}, "done": [], "results": {}, "scene": None, "count": 0}
 
 
-@pytest.mark.parametrize("data", [b"", b"{", b"\xff\xfe", b"[1, 2]", b"null", b"3", b"{}", *(json.dumps({**GOOD, **bad}).encode() for bad in (
-    {"data": 1}, {"done": 2}, {"results": []}, {"scene": 4}, {"count": "five"}, {"done": None}))])
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"{",
+        b"\xff\xfe",
+        b"[1, 2]",
+        b"null",
+        b"3",
+        b"{}",
+        *(
+            json.dumps({**GOOD, **bad}).encode()
+            for bad in ({"data": 1}, {"done": 2}, {"results": []}, {"scene": 4}, {"count": "five"}, {"done": None})
+        ),
+    ],
+)
 def test_damagedStateIsRefused(labFolder, data):
     # Refused, not discarded: the results so far are the user's.
     unfinished(labFolder)
     (labFolder / "state.json").write_bytes(data)
     before = contents(labFolder)
-    with pytest.raises(RunFolderError, match=rf"^{labFolder}/state.json cannot be read \(.+\); --restart discards the run$"):
+    with pytest.raises(
+        RunFolderError, match=rf"^{labFolder}/state.json cannot be read \(.+\); --restart discards the run$"
+    ):
         takeUp(labFolder)
     assert contents(labFolder) == before
     assert takeUp(labFolder, restart=True).data == {}

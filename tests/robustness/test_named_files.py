@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A result belongs to what is in the files that a case, a test or a sweep names, not to their names."""
 
 import json
@@ -5,13 +6,13 @@ import re
 
 import pytest
 
-from capfrac import injection, namedfiles
+from capfrac import injection
 from capfrac.case import resolveCase
 from capfrac.errors import CaseError, RunFolderError
-from capfrac.lab import command as lab
-from capfrac.lab import parameters
+from capfrac.io import namedfiles
+from capfrac.lab import command as lab, parameters
 from capfrac.lab.run import LabRun
-from capfrac.runfolder import RunFolder, caseKey, difference
+from capfrac.run.folder import RunFolder, caseKey, difference
 from capfrac.sweep import readSweep, runSweep
 from processes import run, writePacking
 
@@ -21,10 +22,16 @@ def inject(case, folder, **options):
 
 
 def caseOf(folder, name="packing.csv", **grains):
-    return resolveCase({"case": {}, "grains": {"rMin": 1e-3, "packing": str(folder / name), **grains},
-                        "stress": {"vertical": 10e3, "horizontal": 10e3}, "inlet": {"pores": 1},
-                        "ramp": {"start": 50, "increment": 10, "max": 400, "endAt": "breakthrough"},
-                        "output": {"pictures": "none", "fields": False}})
+    return resolveCase(
+        {
+            "case": {},
+            "grains": {"rMin": 1e-3, "packing": str(folder / name), **grains},
+            "stress": {"vertical": 10e3, "horizontal": 10e3},
+            "inlet": {"pores": 1},
+            "ramp": {"start": 50, "increment": 10, "max": 400, "endAt": "breakthrough"},
+            "output": {"pictures": "none", "fields": False},
+        }
+    )
 
 
 def finished(folder, case):
@@ -96,8 +103,14 @@ def test_runsOfAFormerVersionAreTold(tmp_path, recorded):
 
 
 def test_caseWithoutFilesIsTheRunThatItWas():
-    case = resolveCase({"grains": {"rMin": 1e-3}, "stress": {"vertical": 1, "horizontal": 1}, "inlet": {"pores": 1},
-                        "ramp": {"start": 1, "increment": 1, "max": 2}})
+    case = resolveCase(
+        {
+            "grains": {"rMin": 1e-3},
+            "stress": {"vertical": 1, "horizontal": 1},
+            "inlet": {"pores": 1},
+            "ramp": {"start": 1, "increment": 1, "max": 2},
+        }
+    )
     assert namedfiles.digests(case) == {} and difference({"caseKey": caseKey(case, {})}, case, {}) == ""
 
 
@@ -117,11 +130,23 @@ def labValues(test, **entries):
     return parameters.resolve(test, raw)
 
 
-@pytest.mark.parametrize("test, entries, first, then", [
-    ("settle", {"grains__distribution": "sieve", "grains__sieve": "curve.csv", "grains__count": 10},
-     "diameter [mm],passing\n1,0\n2,100\n", "diameter [mm],passing\n1,0\n3,100\n"),
-    ("hydrate-ridge", {"hydrate_ridge__laboratory": "curve.csv"},
-     "stress,strain\n1e5,0.1\n2e5,0.2\n", "stress,strain\n1e5,0.1\n2e5,0.3\n")])
+@pytest.mark.parametrize(
+    "test, entries, first, then",
+    [
+        (
+            "settle",
+            {"grains__distribution": "sieve", "grains__sieve": "curve.csv", "grains__count": 10},
+            "diameter [mm],passing\n1,0\n2,100\n",
+            "diameter [mm],passing\n1,0\n3,100\n",
+        ),
+        (
+            "hydrate-ridge",
+            {"hydrate_ridge__laboratory": "curve.csv"},
+            "stress,strain\n1e5,0.1\n2e5,0.2\n",
+            "stress,strain\n1e5,0.1\n2e5,0.3\n",
+        ),
+    ],
+)
 def test_changedCurvesAreNotTheTestThatIsThere(tmp_path, test, entries, first, then):
     curve = tmp_path / "curve.csv"
     curve.write_text(first)

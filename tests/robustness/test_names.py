@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Names of files and results that are made of numbers: what differs has different names, and nothing is overwritten."""
 
 import numpy as np
@@ -8,16 +9,27 @@ from capfrac.case import resolveCase
 from capfrac.errors import CaseError
 from capfrac.lab import biaxial, settling
 from capfrac.lab.run import LabRun
-from capfrac.lab.water import stability
-from capfrac.runfolder import exactText
-from capfrac.sediment import Sediment
+from capfrac.run.folder import exactText
+from capfrac.scene.sediment import Sediment
 from capfrac.sweep import resolveSweep
+from capfrac.verification import stability
 from processes import writePacking
 
 
-@pytest.mark.parametrize("value, name", [
-    (150000, "150000"), (150000.0, "150000"), (1e6, "1000000"), (2.1, "2.1"), (0.5, "0.5"), (1e-5, "1e-05"),
-    (1e300, "1e+300"), (2.0000000000000004, "2.0000000000000004"), (0, "0")])
+@pytest.mark.parametrize(
+    "value, name",
+    [
+        (150000, "150000"),
+        (150000.0, "150000"),
+        (1e6, "1000000"),
+        (2.1, "2.1"),
+        (0.5, "0.5"),
+        (1e-5, "1e-05"),
+        (1e300, "1e+300"),
+        (2.0000000000000004, "2.0000000000000004"),
+        (0, "0"),
+    ],
+)
 def test_namesOfPressures(value, name):
     assert exactText(value) == name
 
@@ -38,10 +50,15 @@ def test_namesTellNumbersApart(form):
 def test_snapshotsAtPressuresCloseTogether(tmp_path):
     writePacking(tmp_path / "p.csv", 50)
     pressures = [2.25, 2.1, 2, 2.2, 2.0, 2.1, 2.1000000000000001, 2.1000000000000005, 2.5]
-    case = resolveCase({"grains": {"rMin": 50e-3, "packing": str(tmp_path / "p.csv")},
-                        "stress": {"vertical": 10e3, "horizontal": 10e3}, "inlet": {"pores": 1},
-                        "ramp": {"start": 2, "increment": 1, "max": 2.5, "minLevelSteps": 1},
-                        "output": {"pictures": "none", "fields": False, "pressures": pressures}})
+    case = resolveCase(
+        {
+            "grains": {"rMin": 50e-3, "packing": str(tmp_path / "p.csv")},
+            "stress": {"vertical": 10e3, "horizontal": 10e3},
+            "inlet": {"pores": 1},
+            "ramp": {"start": 2, "increment": 1, "max": 2.5, "minLevelSteps": 1},
+            "output": {"pictures": "none", "fields": False, "pressures": pressures},
+        }
+    )
     summary = injection.inject(case, tmp_path / "run", report=lambda text: None)
     wanted = {"2": 2.0, "2.1": 2.1, "2.1000000000000005": 2.1000000000000005, "2.2": 2.2, "2.25": 2.25}
     names = ["start", *(f"{name}Pa" for name in wanted), "end"]

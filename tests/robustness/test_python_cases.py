@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Cases from Python: nothing that is handed in is changed, parts of cases are refused with all that they lack."""
 
 import copy
@@ -10,8 +11,11 @@ from capfrac.errors import CaseError
 from capfrac.sweep import resolveSweep
 
 PACKING = Path(__file__).resolve().parents[2] / "examples" / "03_own_packing" / "case.toml"
-PART = {"grains": {"rMin": 1e-3, "count": 40}, "inlet": {"pores": 2},
-        "ramp": {"start": 100, "increment": 2, "max": 200}}
+PART = {
+    "grains": {"rMin": 1e-3, "count": 40},
+    "inlet": {"pores": 2},
+    "ramp": {"start": 100, "increment": 2, "max": 200},
+}
 
 
 def inject(given, folder):
@@ -30,8 +34,12 @@ def test_theCaseThatIsInjectedStaysAsItIs(tmp_path):
 
 
 def test_sectionsStayAsTheyAre():
-    raw = {**copy.deepcopy(PART), "stress": {"vertical": 1e4, "horizontal": 8e3},
-           "case": {"name": "mine", "folder": "."}, "inlet": {"points": [[1, 2]]}}
+    raw = {
+        **copy.deepcopy(PART),
+        "stress": {"vertical": 1e4, "horizontal": 8e3},
+        "case": {"name": "mine", "folder": "."},
+        "inlet": {"points": [[1, 2]]},
+    }
     before = copy.deepcopy(raw)
     resolved = case.resolveCase(raw)
     resolved["inlet"]["points"][0][0] = 7.0
@@ -39,19 +47,26 @@ def test_sectionsStayAsTheyAre():
 
 
 def test_resolvedCasesComeOutAsTheyAre():
-    for given in [case.readCase("figure16_rate"), case.readCase("figure15"), case.readCase(PACKING),
-                  case.readCase("figure16_solved", ["water.flow='drained'"])]:
+    for given in [
+        case.readCase("figure16_rate"),
+        case.readCase("figure15"),
+        case.readCase(PACKING),
+        case.readCase("figure16_solved", ["water.flow='drained'"]),
+    ]:
         again = case.resolveCase(given)
         assert again == given and again is not given and again["grains"] is not given["grains"]
 
 
-@pytest.mark.parametrize("named",
-                         [{}, {"case": {"name": "mine"}}, {"case": {"name": "mine", "folder": "/", "warnings": []}}])
+@pytest.mark.parametrize(
+    "named", [{}, {"case": {"name": "mine"}}, {"case": {"name": "mine", "folder": "/", "warnings": []}}]
+)
 def test_partsOfCasesLackSomethingByName(named, tmp_path):
     with pytest.raises(CaseError) as caught:
         inject({**PART, **named}, tmp_path / "run")
-    assert [problem.partition(" is missing")[0] for problem in caught.value.problems] == ["stress.vertical",
-                                                                                          "stress.horizontal"]
+    assert [problem.partition(" is missing")[0] for problem in caught.value.problems] == [
+        "stress.vertical",
+        "stress.horizontal",
+    ]
     assert not (tmp_path / "run").exists()
 
 
@@ -60,14 +75,19 @@ def test_namesMayBeGiven():
     assert resolved["case"]["name"] == "mine" and resolved["cohesion"]["chi"] == 0
 
 
-@pytest.mark.parametrize("given, message", [
-    ({"case": {"name": 3}}, "case.name = 3, allowed: a text"),
-    ({"case": {"folder": None}}, "case.folder = None, allowed: a text"),
-    ({"case": {"warnings": "all"}}, "case.warnings = 'all', allowed: a list"),
-    ({"case": {"nmae": "mine"}}, "unknown key case.nmae"),
-    ({"case": 3}, "'case' stands outside of a section"), ({1: {}}, r"unknown section \[1\]"),
-    ({"grains": {2: 3}}, "unknown key grains.2"),
-    ({"grains": None}, "'grains' stands outside of a section")])
+@pytest.mark.parametrize(
+    "given, message",
+    [
+        ({"case": {"name": 3}}, "case.name = 3, allowed: a text"),
+        ({"case": {"folder": None}}, "case.folder = None, allowed: a text"),
+        ({"case": {"warnings": "all"}}, "case.warnings = 'all', allowed: a list"),
+        ({"case": {"nmae": "mine"}}, "unknown key case.nmae"),
+        ({"case": 3}, "'case' stands outside of a section"),
+        ({1: {}}, r"unknown section \[1\]"),
+        ({"grains": {2: 3}}, "unknown key grains.2"),
+        ({"grains": None}, "'grains' stands outside of a section"),
+    ],
+)
 def test_dictsThatAreNoCases(given, message, tmp_path):
     with pytest.raises(CaseError, match=message):
         inject(given, tmp_path / "run")
@@ -90,9 +110,13 @@ def test_noneIsNotGiven():
 
 
 def test_sweepsStayAsTheyAre():
-    raw = {"sweep": {"case": "figure15"}, "set": {"grains": {"count": 20}}, "units": {"k": "-"},
-           "rules": {"inlet.pores": "k"},
-           "grid": [{"k": [1, 2], "grains": {"seed": [1, 2]}}]}
+    raw = {
+        "sweep": {"case": "figure15"},
+        "set": {"grains": {"count": 20}},
+        "units": {"k": "-"},
+        "rules": {"inlet.pores": "k"},
+        "grid": [{"k": [1, 2], "grains": {"seed": [1, 2]}}],
+    }
     before = copy.deepcopy(raw)
     overrides = ["grains.count=30"]
     resolveSweep(raw, "mine", overrides=overrides)

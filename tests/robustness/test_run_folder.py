@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Run folders: what cannot be used is refused as it is, and nothing half-written is left."""
 
 import signal
@@ -8,12 +9,18 @@ from yade import O
 from capfrac import injection
 from capfrac.case import resolveCase
 from capfrac.errors import RunFolderError, SceneError
-from capfrac.runfolder import RunFolder
+from capfrac.run.folder import RunFolder
 
 
 def caseOf(**grains):
-    return resolveCase({"grains": {"rMin": 1e-3, **grains}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "inlet": {"pores": 3},
-                        "ramp": {"start": 100, "increment": 1, "max": 200}})
+    return resolveCase(
+        {
+            "grains": {"rMin": 1e-3, **grains},
+            "stress": {"vertical": 10e3, "horizontal": 8e3},
+            "inlet": {"pores": 3},
+            "ramp": {"start": 100, "increment": 1, "max": 200},
+        }
+    )
 
 
 def contents(folder):
@@ -118,24 +125,44 @@ def test_failedWriteLeavesTheOldFile(tmp_path):
 def test_damagedCheckpoint(tmp_path):
     # Refused, not discarded: the results so far are the user's.
     writeRun(tmp_path, "interrupted").checkpoint.write_bytes(b"\x1f\x8b\x08 no scene")
-    refused(tmp_path, "the checkpoint .*checkpoint.yade.gz cannot be read .*: damaged, or of another version of capfrac or YADE; --restart discards the run")
+    refused(
+        tmp_path,
+        (
+            "the checkpoint .*checkpoint.yade.gz cannot be read .*: damaged, or of another version of capfrac or YADE;"
+            " --restart discards the run"
+        ),
+    )
 
 
 def test_sceneWithBodiesIsNotThrownAway(tmp_path, handScene, looseDisks, sceneState):
     handScene(*looseDisks())
     before = sceneState()
-    with pytest.raises(SceneError, match=r"the scene holds 29 bodies; call O.reset\(\) first, or inject\(..., replaceScene=True\)"):
+    with pytest.raises(
+        SceneError, match=r"the scene holds 29 bodies; call O.reset\(\) first, or inject\(..., replaceScene=True\)"
+    ):
         injection.inject(caseOf(), tmp_path / "run")
     assert sceneState() == before and not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("inlet, message", [({"pores": 99}, "inlet.pores = 99, allowed: 1 … "), ({"from": 0.0, "to": 1.0}, "inlet.from = 0, inlet.to = 1 m, allowed: 0 … "),
-                                            ({"points": [[1.0, 1.0]]}, r"inlet.points .* allowed: points inside the box"),
-                                            ({"middle": 1.0}, r"inlet.points .* allowed: points inside the box")])
+@pytest.mark.parametrize(
+    "inlet, message",
+    [
+        ({"pores": 99}, "inlet.pores = 99, allowed: 1 … "),
+        ({"from": 0.0, "to": 1.0}, "inlet.from = 0, inlet.to = 1 m, allowed: 0 … "),
+        ({"points": [[1.0, 1.0]]}, r"inlet.points .* allowed: points inside the box"),
+        ({"middle": 1.0}, r"inlet.points .* allowed: points inside the box"),
+    ],
+)
 def test_inletThatDoesNotFitTheSampleLeavesNothing(tmp_path, inlet, message):
     # Known only when the sample is made, so the folder exists by then.
-    case = resolveCase({"grains": {"rMin": 1e-3, "count": 10}, "stress": {"vertical": 10e3, "horizontal": 8e3}, "inlet": inlet,
-                        "ramp": {"start": 100, "increment": 1, "max": 200}})
+    case = resolveCase(
+        {
+            "grains": {"rMin": 1e-3, "count": 10},
+            "stress": {"vertical": 10e3, "horizontal": 8e3},
+            "inlet": inlet,
+            "ramp": {"start": 100, "increment": 1, "max": 200},
+        }
+    )
     with pytest.raises(ValueError, match=message):
         injection.inject(case, tmp_path / "run", report=lambda text: None)
     assert list(tmp_path.iterdir()) == []

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The scripts around capfrac: stopped in the middle, and an installation that serves other users."""
 
 import fcntl
@@ -135,7 +136,7 @@ def test_installationServesOtherUsers(installed, tmp_path):
                 "run",
             ],
             ["yade", "-x", "-n", "script.py"],
-            ["python", "-c", "from capfrac.rigid import _kernels; print('kernels', bool(_kernels()))"],
+            ["python", "-c", "from capfrac.run.rigid import _kernels; print('kernels', bool(_kernels()))"],
         ]
         outputs = []
         for words in arguments:

@@ -1,4 +1,6 @@
-"""Sweeps that are interrupted, killed, or have points that fail: the same command goes on and ends with the same table."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Sweeps that are interrupted, killed, or have points that fail: the same command goes on and ends with the same table.
+"""
 
 import csv
 import shlex
@@ -57,7 +59,10 @@ def test_tableHasEveryPoint(whole):
     for line in whole:
         assert line["state"] == "finished" and line["error"] == "" and line["mode"] in ("capillary", "mixed")
         # Grains of 1-2 mm: throats open between 121 and 241 Pa at contact; the ramp ends at 160 Pa.
-        assert 121 < float(line["endPressure [Pa]"]) <= 160 and float(line["ramp.start [Pa]"] if "ramp.start [Pa]" in line else 150) == 150
+        assert (
+            121 < float(line["endPressure [Pa]"]) <= 160
+            and float(line["ramp.start [Pa]"] if "ramp.start [Pa]" in line else 150) == 150
+        )
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
@@ -88,13 +93,19 @@ def test_finishedPointsAreNotRunAgain(small, tmp_path, monkeypatch):
     assert (first["points"], first["finished"]) == (1, 1) and len(rows(tmp_path / "sweep")) == 1
     written = (tmp_path / "sweep" / "points" / "chi0" / "summary.json").stat().st_mtime_ns
     runSweep(sweep, tmp_path / "sweep", report=told.append)
-    assert told[0] == "2 points: 1 finished, 0 failed, 1 to run, 1 at a time" and len(told) == 2 and told[1].startswith("2/2 chi10: ")
+    assert (
+        told[0] == "2 points: 1 finished, 0 failed, 1 to run, 1 at a time"
+        and len(told) == 2
+        and told[1].startswith("2/2 chi10: ")
+    )
     assert (tmp_path / "sweep" / "points" / "chi0" / "summary.json").stat().st_mtime_ns == written
 
 
 def test_failedPointsAreRecordedAndDoNotStopTheRest(tmp_path):
     path = tmp_path / "bad.toml"
-    path.write_text(SMALL.replace("inlet.pores = 1\n", "").replace("cohesion.chi = [0.0, 10.0]", "inlet.pores = [99, 1]"))  # wider than the box, as only the sample tells
+    path.write_text(
+        SMALL.replace("inlet.pores = 1\n", "").replace("cohesion.chi = [0.0, 10.0]", "inlet.pores = [99, 1]")
+    )  # wider than the box, as only the sample tells
     result = runSweep(readSweep(path), tmp_path / "sweep")
     assert (result["finished"], result["failed"]) == (1, 1)
     bad, good = rows(tmp_path / "sweep")
@@ -137,12 +148,24 @@ def test_twoSweepsDoNotShareAFolder(command, small, tmp_path):
         process.communicate(timeout=90)
 
 
-@pytest.mark.parametrize("arguments, status, message", [
-    (["sweep", "nowhere"], 1, "capfrac: error: the sweep 'nowhere' cannot be read"), (["sweep", "regime_map", "-j", "0"], 1, "--processes = 0, allowed: a whole number >= 1"),
-    (["sweep", "regime_map", "-s", "grains.cuont=3"], 1, "'grains.cuont' is no key of a case"), (["sweep"], 2, "the following arguments are required: sweep")])
+@pytest.mark.parametrize(
+    "arguments, status, message",
+    [
+        (["sweep", "nowhere"], 1, "capfrac: error: the sweep 'nowhere' cannot be read"),
+        (["sweep", "regime_map", "-j", "0"], 1, "--processes = 0, allowed: a whole number >= 1"),
+        (["sweep", "regime_map", "-s", "grains.cuont=3"], 1, "'grains.cuont' is no key of a case"),
+        (["sweep"], 2, "the following arguments are required: sweep"),
+    ],
+)
 def test_commandSaysWhatIsWrong(command, tmp_path, arguments, status, message):
     returned, output, errors = run(lambda *a: command(*a, cwd=tmp_path), *arguments)
-    assert returned == status and output == "" and message in errors and "Traceback" not in errors and list(tmp_path.iterdir()) == []
+    assert (
+        returned == status
+        and output == ""
+        and message in errors
+        and "Traceback" not in errors
+        and list(tmp_path.iterdir()) == []
+    )
 
 
 def test_listedCommandsFillTheSweep(command, small, whole, tmp_path):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What is odd but possible is told as a run begins, printed with its result, and kept in summary and table."""
 
 import csv
@@ -7,7 +8,7 @@ import pytest
 
 from capfrac import injection
 from capfrac.case import resolveCase
-from capfrac.runfolder import RunFolder
+from capfrac.run.folder import RunFolder
 from capfrac.sweep import readSweep, runSweep
 from processes import run, writePacking
 
@@ -39,10 +40,13 @@ def caseOf(tmp_path):
     writePacking(tmp_path / "p.csv")
 
     def make(start=BELOW, **sections):
-        raw = {"grains": {"packing": str(tmp_path / "p.csv"), "rMin": 1e-3},
-               "stress": {"vertical": 10e3, "horizontal": 10e3}, "inlet": {"pores": 1},
-               "ramp": {"start": start, "increment": 10, "max": 400, "endAt": "breakthrough"},
-               "output": {"pictures": "none", "fields": False}}
+        raw = {
+            "grains": {"packing": str(tmp_path / "p.csv"), "rMin": 1e-3},
+            "stress": {"vertical": 10e3, "horizontal": 10e3},
+            "inlet": {"pores": 1},
+            "ramp": {"start": start, "increment": 10, "max": 400, "endAt": "breakthrough"},
+            "output": {"pictures": "none", "fields": False},
+        }
         for section, entries in sections.items():
             raw.setdefault(section, {}).update(entries)
         return resolveCase(raw)
@@ -67,9 +71,11 @@ def test_throughAtTheStartOfTheRamp(caseOf, tmp_path):
     names = summary["results"]["upperBounds"]
     # The levels of saturation, too: gas is everywhere at the end of the first level.
     assert names == ["breakthroughPressure", *summary["results"]["saturation"]]
-    text, = summary["warnings"]
-    assert text == (f"reached at ramp.start = 300 Pa already, so upper bounds: {', '.join(names)}; "
-                    "begin the ramp lower to find them")
+    (text,) = summary["warnings"]
+    assert (
+        text == f"reached at ramp.start = 300 Pa already, so upper bounds: {', '.join(names)}; "
+        "begin the ramp lower to find them"
+    )
 
 
 @pytest.mark.parametrize("pressure, above", [(None, False), (50.0, True), (50.000001, False), (20.0, True)])
@@ -114,7 +120,7 @@ def test_inletThatTouchesTheOutlet(caseOf, tmp_path):
 
 def test_pressuresOutsideOfTheRamp(caseOf, tmp_path):
     summary, told = warningsOf(caseOf(output={"pressures": [20, 60, 400, 500.5]}), tmp_path / "run")
-    text, = summary["warnings"]
+    (text,) = summary["warnings"]
     assert text == "output.pressures: no snapshot at 20, 500.5 Pa, the capillary pressure goes from 50 to 400 Pa"
     assert told == [f"warning: {text}"] and "60Pa" in [entry["name"] for entry in summary["snapshots"]]
 
@@ -136,7 +142,7 @@ def test_warningsAreKeptOnce(tmp_path):
 def test_pressuresOfSnapshotsMakeAnotherRun(caseOf):
     # The ramp stops at each, so the levels after it are others. Twice the same, or in another order, they do not.
     def key(pressures):
-        from capfrac.runfolder import caseKey
+        from capfrac.run.folder import caseKey
 
         return caseKey(caseOf(output={"pressures": pressures}), {})
 

@@ -1,4 +1,6 @@
-"""Runs that test_rate.py and the figure of the manual share: the sample of figure16_small under a ramp, and under rates.
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs that test_rate.py and the figure of the manual share: the sample of figure16_small under a ramp, and under
+rates.
 
 A run that is there already, of the shipped case as it is, is not made again. By itself this file makes all runs:
 ``capfrac python tests/validation/rate.py``.
@@ -19,24 +21,34 @@ from runs import FOLDER
 PLACE = FOLDER / "rate"
 #: Where the injections begin [Pa]: below the first entry.
 START = {"figure16_small": 125e3, "figure15": 140.0}
-#: Volumes upstream of the inlet, over that of the pores [-], and the rise of the pressure within a period of a grain [Pa].
+#: Volumes upstream of the inlet, over that of the pores [-], and the rise of the pressure within a period of a grain
+#: [Pa].
 SMALL, LARGE, RISE = 3, 300, 60.0
 #: Large for a coarse sample: P_c is 150 Pa of 101 kPa.
 LARGE_COARSE = 1e5
 #: Kinds of runs: keywords of one().
 RUNS = {
-    "ramp": dict(), "ramp-ideal": dict(law="ideal"),
-    "small": dict(volume=SMALL), "small-half-rate": dict(volume=SMALL, rise=RISE / 2), "small-half-step": dict(volume=SMALL, refine=2),
-    "large": dict(volume=LARGE), "large-half-rate": dict(volume=LARGE, rise=RISE / 2), "large-half-step": dict(volume=LARGE, refine=2),
+    "ramp": dict(),
+    "ramp-ideal": dict(law="ideal"),
+    "small": dict(volume=SMALL),
+    "small-half-rate": dict(volume=SMALL, rise=RISE / 2),
+    "small-half-step": dict(volume=SMALL, refine=2),
+    "large": dict(volume=LARGE),
+    "large-half-rate": dict(volume=LARGE, rise=RISE / 2),
+    "large-half-step": dict(volume=LARGE, refine=2),
 }
 #: The same rate but for a billionth: what the accidents of one sample are, whatever the step.
 NUDGED = {f"small-nudged{n}": dict(volume=SMALL, rise=RISE * (1 + n * 1e-9)) for n in (-2, -1, 1, 2)}
-COARSE = {"coarse-ramp": dict(case="figure15"), "coarse-ramp-ideal": dict(case="figure15", law="ideal"), "coarse-large": dict(case="figure15", volume=LARGE_COARSE, rise=0.02)}
+COARSE = {
+    "coarse-ramp": dict(case="figure15"),
+    "coarse-ramp-ideal": dict(case="figure15", law="ideal"),
+    "coarse-large": dict(case="figure15", volume=LARGE_COARSE, rise=0.02),
+}
 
 
 def sampleOf(name, case):
     """Path of the saved sample of a resolved case of that name."""
-    from capfrac.casescene import makeSample
+    from capfrac.case.build import makeSample
 
     path = keptAs(name, case, "yade.gz")
     if not path.exists():
@@ -49,7 +61,7 @@ def sampleOf(name, case):
 
 def keptAs(name, case, suffix):
     """Path of what is kept of a resolved case: a case that changed since has another."""
-    from capfrac.runfolder import caseKey
+    from capfrac.run.folder import caseKey
 
     return PLACE / f"{name}-seed{case['grains']['seed']}-{caseKey(case, {})}.{suffix}"
 
@@ -57,8 +69,8 @@ def keptAs(name, case, suffix):
 def one(name, seed=1, case="figure16_small", law="incompressible", volume=None, rise=RISE, refine=1, after=3000):
     """One injection until some steps after the breakthrough: numbers, history and events as a dict, kept in a file.
 
-    ``volume``: None for the ramp, else the dead volume of a supply whose rate lets the pressure rise by ``rise``. ``refine``
-    divides the time step and multiplies all that is counted in steps.
+    ``volume``: None for the ramp, else the dead volume of a supply whose rate lets the pressure rise by ``rise``.
+    ``refine`` divides the time step and multiplies all that is counted in steps.
     """
     from capfrac import injection
     from capfrac.case import readCase
@@ -72,21 +84,44 @@ def one(name, seed=1, case="figure16_small", law="incompressible", volume=None, 
     O.reset()
     O.load(str(sample), quiet=True)
     O.dt /= refine
-    gas = injection.startInjection(START[case], ramp["increment"], ramp["max"], parameters["inlet"]["pores"], checkInvariants=True,
-                                   invasionInterval=ramp["invasionInterval"] * refine, historyInterval=10 * refine, minLevelSteps=100 * refine,
-                                   gasLaw=law if volume is None else "ideal")
+    gas = injection.startInjection(
+        START[case],
+        ramp["increment"],
+        ramp["max"],
+        parameters["inlet"]["pores"],
+        checkInvariants=True,
+        invasionInterval=ramp["invasionInterval"] * refine,
+        historyInterval=10 * refine,
+        minLevelSteps=100 * refine,
+        gasLaw=law if volume is None else "ideal",
+    )
     if volume is not None:
         gas.reservoirVolume = volume * gas.initialVoid
         gas.gasRate = 1e-6
         gas.gasRate *= rise / gas.risePerPeriod()
         gas.gasControl = "rate"
     begun, error = O.time, 0.0
-    while gas.gasPressure < gas.maxPressure and (gas.breakthroughIter < 0 or O.iter < gas.breakthroughIter + after * refine):
+    while gas.gasPressure < gas.maxPressure and (
+        gas.breakthroughIter < 0 or O.iter < gas.breakthroughIter + after * refine
+    ):
         O.run(100 * refine, True)
         error = max(error, gas.gasLedger()["error"], gas.volumes()["error"])
-    found = {"name": name, "seed": seed, "begun": begun, "breakthrough": None if math.isnan(gas.breakthroughPressure) else gas.breakthroughPressure,
-             "breakthroughIter": gas.breakthroughIter, "error": error, "rate": gas.gasRate, "reservoir": gas.reservoirVolume, "void": gas.initialVoid,
-             "detached": gas.nDetachedGas, "ledger": gas.gasLedger(), "events": gas.events(), "history": gas.history(), "levels": gas.levels()}
+    found = {
+        "name": name,
+        "seed": seed,
+        "begun": begun,
+        "breakthrough": None if math.isnan(gas.breakthroughPressure) else gas.breakthroughPressure,
+        "breakthroughIter": gas.breakthroughIter,
+        "error": error,
+        "rate": gas.gasRate,
+        "reservoir": gas.reservoirVolume,
+        "void": gas.initialVoid,
+        "detached": gas.nDetachedGas,
+        "ledger": gas.gasLedger(),
+        "events": gas.events(),
+        "history": gas.history(),
+        "levels": gas.levels(),
+    }
     path.write_text(json.dumps(found))
     return found
 
@@ -98,7 +133,11 @@ def opening(run):
 
 def highest(run):
     """Highest gas pressure until the breakthrough [Pa]."""
-    return max(p for p, i in zip(run["history"]["gasPressure"], run["history"]["iteration"]) if run["breakthroughIter"] < 0 or i <= run["breakthroughIter"] + 10)
+    return max(
+        p
+        for p, i in zip(run["history"]["gasPressure"], run["history"]["iteration"])
+        if run["breakthroughIter"] < 0 or i <= run["breakthroughIter"] + 10
+    )
 
 
 def driving(run):
@@ -116,9 +155,12 @@ def table(runs):
     lines = []
     for run in runs:
         at = run["breakthrough"]
-        lines.append(f"{run['name']:20s} seed {run['seed']}: opened at {(opening(run) or math.nan) / 1e3:7.2f}, highest {highest(run) / 1e3:7.2f}, driven to the outlet at "
-                     f"{driving(run) / 1e3 if at else math.nan:7.2f}, there at "
-                     f"{math.nan if at is None else at / 1e3:7.2f} kPa, events {len(run['events']['time'])}, error {run['error']:.1e}, detached {run['detached']}")
+        lines.append(
+            f"{run['name']:20s} seed {run['seed']}: opened at {(opening(run) or math.nan) / 1e3:7.2f}, highest"
+            f" {highest(run) / 1e3:7.2f}, driven to the outlet at {driving(run) / 1e3 if at else math.nan:7.2f}, there"
+            f" at {math.nan if at is None else at / 1e3:7.2f} kPa, events {len(run['events']['time'])}, error"
+            f" {run['error']:.1e}, detached {run['detached']}"
+        )
     return lines
 
 

@@ -1,7 +1,9 @@
-"""Figure 14 of Jain & Juanes (2008): branched fractures in all directions under equal stresses, upright ones under a larger vertical stress (long: see `--validation`).
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figure 14 of Jain & Juanes (2008): branched fractures in all directions under equal stresses, upright ones under a
+larger vertical stress (long: see `--validation`).
 
-The paper shows one picture and no numbers. What is asserted is what it says: more than one branch, and the direction of the stresses.
-Whether fractures prefer a direction is asked of the samples, not of their branches: see doc/fracture.md.
+The paper shows one picture and no numbers. What is asserted is what it says: more than one branch, and the direction of
+the stresses. Whether fractures prefer a direction is asked of the samples, not of their branches: see doc/fracture.md.
 """
 
 import pytest
@@ -33,5 +35,7 @@ def test_equalStressesPreferNoDirection(summaries):
 
 def test_aLargerVerticalStressTurnsTheFractureUpright(summaries):
     found = fracture.orientationOfRuns(summaries["figure14_vertical"])
-    assert abs(found["mean [degrees]"] - 90) < 30, found  # a sixth of the circle on each side: a third of all directions
+    assert (
+        abs(found["mean [degrees]"] - 90) < 30
+    ), found  # a sixth of the circle on each side: a third of all directions
     assert found["pVertical"] < 0.01, found

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Gas at a rate in the paper's two samples: what the ramp gave, and what the step of time has to do with it (long)."""
 
 import numpy as np
@@ -31,9 +32,11 @@ def test_underPressureTheLawDoesNotMatter(runs, prefix):
 @pytest.mark.parametrize("prefix, case", [("", "figure16_small"), ("coarse-", "figure15")])
 def test_slowRateFromALargeVolumeIsARamp(runs, prefix, case):
     ramp, rate = runs[prefix + "ramp"], runs[prefix + "large"]
-    # The pores that the gas enters take (p_g + p_0) V_pores/V_reservoir from its pressure; all of them, were they all filled.
+    # The pores that the gas enters take (p_g + p_0) V_pores/V_reservoir from its pressure; all of them, were they all
+    # filled.
     drop = (101325 + ramp["breakthrough"]) * rate["void"] / rate["reservoir"]
-    # While the gas advances, a pore in `interval` steps, the supply goes on: the rise of a step is that of the first rows.
+    # While the gas advances, a pore in `interval` steps, the supply goes on: the rise of a step is that of the first
+    # rows.
     history, interval = rate["history"], 50
     perStep = max(np.diff(history["gasPressure"])[:20]) / (history["iteration"][1] - history["iteration"][0])
     before = sum(1 for i in rate["events"]["iteration"] if i <= rate["breakthroughIter"])
@@ -52,7 +55,8 @@ def test_halvingTheStepHardlyChangesThePressures(runs, volume, refined):
 
 @pytest.mark.parametrize("refined", ["half-rate", "half-step"])
 def test_whereThePressureFallsTheStepMattersNoMoreThanABillionth(runs, refined):
-    """With the small volume the pressure falls by ten per cent while the gas is on its last few pores. Which these are is a matter of
+    """With the small volume the pressure falls by ten per cent while the gas is on its last few pores. Which these are
+    is a matter of
     accidents: a billionth of the rate decides it, and half the step no more."""
     accidents = [runs[name]["breakthrough"] for name in ("small", *NUDGED)]
     assert max(accidents) - min(accidents) > 0.02 * max(accidents), "no reason to compare with accidents"
@@ -65,5 +69,7 @@ def test_pressureFallsWhereTheSampleOpens(runs):
     peak = int(np.argmax(pressure))
     assert pressure[peak:].min() < 0.9 * pressure[peak]
     # At the peak or before it the first throat opened; the supply went on all the time.
-    first = next(i for i, opened in zip(runs["small"]["events"]["iteration"], runs["small"]["events"]["opened"]) if opened)
+    first = next(
+        i for i, opened in zip(runs["small"]["events"]["iteration"], runs["small"]["events"]["opened"]) if opened
+    )
     assert first <= iteration[-1] and np.all(np.diff(history["mass"]) > 0)

@@ -1,10 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Solved water and compressible gas at full size (long: see `--validation`)."""
 
 import pytest
 
 from capfrac.case import readCase
-from capfrac.injection import inject
 from capfrac.lab import command, parameters
+from capfrac.run.injection import inject
 from runs import FOLDER
 
 pytestmark = pytest.mark.validation
@@ -16,7 +17,11 @@ DRAINED = ['network.poreMode="triangle"', "network.closedPore=0.03", 'ramp.endAt
 
 
 def run(name, seed, case=None, overrides=()):
-    return inject(readCase(case or name, [f"grains.seed={seed}", "output.fields=false", *overrides]), FOLDER / f"{name}-seed{seed}", replaceScene=True)
+    return inject(
+        readCase(case or name, [f"grains.seed={seed}", "output.fields=false", *overrides]),
+        FOLDER / f"{name}-seed{seed}",
+        replaceScene=True,
+    )
 
 
 def checkBooks(found):
@@ -35,8 +40,10 @@ def test_figure15InTheSlowLimit(seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_figure16InTheSlowLimit(seed):
-    """Fine grains: a fracture that reaches the top at the pressure of drained water. The water may stand off rest by one per cent of that when a pore is entered; which way the gas
-    takes is a matter of accidents once grains slide, for which four per cent more are allowed: half of what drained samples differ by (136 to 148 kPa)."""
+    """Fine grains: a fracture that reaches the top at the pressure of drained water. The water may stand off rest by
+    one per cent of that when a pore is entered; which way the gas takes is a matter of accidents once grains slide, for
+    which four per cent more are allowed: half of what drained samples differ by (136 to 148 kPa).
+    """
     found, drained = run("figure16_solved", seed), run("figure16_triangle", seed, "figure16_small", DRAINED)
     assert found["mode"]["mode"] == drained["mode"]["mode"] == "fracture"
     assert found["mode"]["breakthroughPressure"] == pytest.approx(drained["mode"]["breakthroughPressure"], rel=0.05)
@@ -44,9 +51,14 @@ def test_figure16InTheSlowLimit(seed):
 
 
 def test_lenormandsCorners():
-    found = command.runTest("displacement", parameters.resolve("displacement", {"grains": {"count": 800}}), FOLDER / "lab-displacement")
-    stable, viscous, capillary = (found[name] for name in ("stable displacement", "viscous fingering", "capillary fingering"))
-    # The first three are what an independent code expects of these (Ca, M): most of the water driven out, or not, behind a flat or a ragged front.
+    found = command.runTest(
+        "displacement", parameters.resolve("displacement", {"grains": {"count": 800}}), FOLDER / "lab-displacement"
+    )
+    stable, viscous, capillary = (
+        found[name] for name in ("stable displacement", "viscous fingering", "capillary fingering")
+    )
+    # The first three are what an independent code expects of these (Ca, M): most of the water driven out, or not,
+    # behind a flat or a ragged front.
     assert stable["saturation"] > 0.7 > max(viscous["saturation"], capillary["saturation"])
     assert stable["roughness"] < min(viscous["roughness"], capillary["roughness"])
     assert stable["filledBehind"] > 0.9 > max(viscous["filledBehind"], capillary["filledBehind"])

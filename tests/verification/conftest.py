@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes that several verifications of the gas engine share."""
 
 import pytest
@@ -7,7 +8,9 @@ from yade.wrapper import ForceResetter, GasInvasionEngine
 
 @pytest.fixture
 def standing(settledScene):
-    """A function (**attributes) -> gas engine in 60 settled grains of 1-2 mm that stand still, with an inlet of two pores in the middle of the floor."""
+    """A function (**attributes) -> gas engine in 60 settled grains of 1-2 mm that stand still, with an inlet of two
+    pores in the middle of the floor.
+    """
 
     def make(**attributes):
         walls = settledScene()
@@ -22,14 +25,24 @@ def standing(settledScene):
 
 @pytest.fixture
 def chain(handScene):
-    """A function (gaps, gravity, **attributes) -> engine: grains of 1 mm one on the other, ``gaps`` [m] off the left wall and pressed into the right one, inlet in the lower left corner."""
+    """A function (gaps, gravity, **attributes) -> engine: grains of 1 mm one on the other, ``gaps`` [m] off the left
+    wall and pressed into the right one, inlet in the lower left corner.
+    """
     r = 1e-3
 
     def make(gaps, gravity=9.81, **attributes):
         grains = [(gap + r, r + 1.98 * r * k, r) for k, gap in enumerate(gaps)]
         width = min(gaps) + 1.98 * r
         handScene(grains, (0, width, 0, grains[-1][1] + 1.01 * r))
-        gas = GasInvasionEngine(inletFrom=0, inletTo=r, fluidDensity=1000, gravity=(0, -gravity), poreMode="triangle", checkInvariants=True, **attributes)
+        gas = GasInvasionEngine(
+            inletFrom=0,
+            inletTo=r,
+            fluidDensity=1000,
+            gravity=(0, -gravity),
+            poreMode="triangle",
+            checkInvariants=True,
+            **attributes,
+        )
         O.engines = [ForceResetter(), gas]
         return O.engines[1]
 

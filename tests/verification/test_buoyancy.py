@@ -1,4 +1,7 @@
-"""Gas and water with weights: exact thresholds in a chain of pores, forces at rest, stable and unstable fronts, and the critical column."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Gas and water with weights: exact thresholds in a chain of pores, forces at rest, stable and unstable fronts, and the
+critical column.
+"""
 
 import math
 
@@ -39,10 +42,12 @@ def test_breakthroughOfAChain(chain, gravity):
 
 
 def test_imbibitionOfAChain(chain):
-    """Water from the top first takes the pores on the right, which are tighter, then the lowest on the left, and so cuts off the gas above it.
+    """Water from the top first takes the pores on the right, which are tighter, then the lowest on the left, and so
+    cuts off the gas above it.
 
-    The first step is the upper right corner's: its sphere lies in the corner, at the distance rho of the grain's centre, and is refilled below
-    2 gamma/(sqrt(rho^2 + r^2) - r) there, less rho_w g z at the inlet. All others on the right, and the lowest on the left, follow at higher thresholds.
+    The first step is the upper right corner's: its sphere lies in the corner, at the distance rho of the grain's
+    centre, and is refilled below 2 gamma/(sqrt(rho^2 + r^2) - r) there, less rho_w g z at the inlet. All others on the
+    right, and the lowest on the left, follow at higher thresholds.
     """
     g = 4.0
     gas = chain([0.3 * R] * 6, g, gasPressure=400, imbibition=True)
@@ -60,7 +65,9 @@ def test_imbibitionOfAChain(chain):
     height = [min(y for _, y in polygon) for polygon in cells["polygon"]]
     left = sorted((h, c) for c, h in enumerate(height) if side[c] == "left")
     assert len(left) == 7  # two corners and five between the grains
-    assert [cells["phase"][c] for _, c in left] == [1, 0, 1, 1, 1, 1, 1] and not any(cells["phase"][c] for c, s in enumerate(side) if s == "right")
+    assert [cells["phase"][c] for _, c in left] == [1, 0, 1, 1, 1, 1, 1] and not any(
+        cells["phase"][c] for c, s in enumerate(side) if s == "right"
+    )
     assert [cells["cutOff"][c] for _, c in left] == [False, False, True, True, True, True, True]
 
 
@@ -92,7 +99,9 @@ def test_forcesAddUpToTheWeightOfBothFluids(halfFull, gravity):
 
 
 def test_grainsInOneFluidFeelItsBuoyancy(halfFull):
-    """Water and gas of one density: Archimedes on every grain, less what its contacts keep dry, on top of the forces without weight."""
+    """Water and gas of one density: Archimedes on every grain, less what its contacts keep dry, on top of the forces
+    without weight.
+    """
     light = halfFull().fluidForces()
     heavy = halfFull(fluidDensity=1000, gasDensity=1000, gravity=(0, -9.81)).fluidForces()
     for body in list(O.bodies)[4:]:
@@ -123,11 +132,15 @@ def test_fluidsWithoutWeightAreAsBefore(halfFull):
 
 
 def test_stableAndUnstableFronts():
-    """Invading from above is stable, from below it fingers: more, and less, gas at breakthrough than without gravity (means of three packings)."""
+    """Invading from above is stable, from below it fingers: more, and less, gas at breakthrough than without gravity
+    (means of three packings).
+    """
     import importlib.util
     from pathlib import Path
 
-    spec = importlib.util.spec_from_file_location("buoyant", Path(__file__).resolve().parents[2] / "examples" / "24_buoyancy.py")
+    spec = importlib.util.spec_from_file_location(
+        "buoyant", Path(__file__).resolve().parents[2] / "examples" / "24_buoyancy.py"
+    )
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     found = module.main(count=100, seeds=4)
@@ -140,8 +153,16 @@ def test_criticalColumn():
     assert buoyancy.bondNumber(1e-3, 0.05, 1000, 0, g=10) == pytest.approx(0.2)
 
 
-@pytest.mark.parametrize("arguments, message", [((-1, 1000, 1), r"capillaryPressure \[Pa\] = -1, allowed"), ((1, 1, 1), r"waterDensity \[kg/m\^3\] = 1, allowed: finite and > gasDensity = 1"),
-                                                ((1, 1000, -2), "gasDensity"), ((1, 1000, 1, 0), r"g \[m/s\^2\] = 0"), ((math.nan, 1000, 1), "capillaryPressure .* nan")])
+@pytest.mark.parametrize(
+    "arguments, message",
+    [
+        ((-1, 1000, 1), r"capillaryPressure \[Pa\] = -1, allowed"),
+        ((1, 1, 1), r"waterDensity \[kg/m\^3\] = 1, allowed: finite and > gasDensity = 1"),
+        ((1, 1000, -2), "gasDensity"),
+        ((1, 1000, 1, 0), r"g \[m/s\^2\] = 0"),
+        ((math.nan, 1000, 1), "capillaryPressure .* nan"),
+    ],
+)
 def test_impossibleColumns(arguments, message):
     with pytest.raises(CaseError, match=message):
         buoyancy.criticalColumn(*arguments)

@@ -1,4 +1,6 @@
-"""SinglePhaseFlowEngine among grains set by hand against closed forms; the conductances are written out here once more."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""SinglePhaseFlowEngine among grains set by hand against closed forms; the conductances are written out here once more.
+"""
 
 import math
 
@@ -7,8 +9,8 @@ import pytest
 from yade import O
 
 from capfrac.errors import CaseError
-from capfrac.lab.water import closedforms, handmade, lattices, units
-from capfrac.sediment import Sediment
+from capfrac.scene.sediment import Sediment
+from capfrac.verification import closedforms, handmade, lattices, units
 
 MU, KF, DP = 1e-3, 1e7, 1e3
 NAN = float("nan")
@@ -28,8 +30,13 @@ def found():
     """All checks once, on a small sample in three systems of units."""
     O.reset()
     systems = (units.SYSTEMS[0], units.SYSTEMS[2], units.SYSTEMS[4])
-    return {"twoPores": closedforms.twoPores(), "network": closedforms.network(), "lattices": lattices.permeabilities(), "pulse": lattices.pulse(),
-            "units": units.checkUnits(Sediment(grainCount=30, rMin=1e-3, seed=1), systems=systems)}
+    return {
+        "twoPores": closedforms.twoPores(),
+        "network": closedforms.network(),
+        "lattices": lattices.permeabilities(),
+        "pulse": lattices.pulse(),
+        "units": units.checkUnits(Sediment(grainCount=30, rMin=1e-3, seed=1), systems=systems),
+    }
 
 
 def beside(distance, radii):
@@ -47,14 +54,20 @@ def beside(distance, radii):
 
 def test_twoPoresDecayAtTheRateOfTheirThroats(found):
     pores = found["twoPores"]
-    # Grains of 1, 1.5 and 1 mm: two contacts of mean radius 1.25 mm, half a throat of 1 mm at floor and roof. Centroids of the voids: a rectangle less half-disks.
-    conductance = (2 * eq9(0, 1.25e-3) + eq9(0, 1e-3)) / (12e-3 - beside(3.6e-3, (1e-3, 1.5e-3, 1e-3)) - beside(8.4e-3, (1e-3, 1.5e-3, 1e-3)))
+    # Grains of 1, 1.5 and 1 mm: two contacts of mean radius 1.25 mm, half a throat of 1 mm at floor and roof. Centroids
+    # of the voids: a rectangle less half-disks.
+    conductance = (2 * eq9(0, 1.25e-3) + eq9(0, 1e-3)) / (
+        12e-3 - beside(3.6e-3, (1e-3, 1.5e-3, 1e-3)) - beside(8.4e-3, (1e-3, 1.5e-3, 1e-3))
+    )
     solid = 0.5 * math.pi * (1 + 1.5**2 + 1) * 1e-6
     volumes = [3.6e-3 * 7e-3 - solid, 8.4e-3 * 7e-3 - solid]
     assert pores["volumes"] == pytest.approx(volumes, rel=1e-13) and pores["volumeError"] < 1e-13
-    assert pores["rate"] == pytest.approx(conductance * KF * (1 / volumes[0] + 1 / volumes[1]), rel=1e-7)  # 2e5 slices, (1/n)^1.5 at the poles
+    assert pores["rate"] == pytest.approx(
+        conductance * KF * (1 / volumes[0] + 1 / volumes[1]), rel=1e-7
+    )  # 2e5 slices, (1/n)^1.5 at the poles
     for scheme in ("implicit", "explicit"):
-        # A pressure is K_f (m/V - 1): some K_f 2^-53 of round-off against 1 kPa in each of 160 steps, 1e-12 each; random, but bounded by the sum.
+        # A pressure is K_f (m/V - 1): some K_f 2^-53 of round-off against 1 kPa in each of 160 steps, 1e-12 each;
+        # random, but bounded by the sum.
         assert pores[scheme]["roundOff"] < 160 * 2 * KF / DP * 2**-53 * 4
         assert pores[scheme]["mass"] < 160 * 2**-52
 
@@ -78,12 +91,16 @@ def test_throatsInSeriesAndInParallelAreExact(found):
     assert flow == pytest.approx(3 * eq9(0, 2e-3) * DP / (32e-3 - 2 * beside(4e-3, (2e-3, 2e-3, 2e-3))), rel=1e-7)
     radii = [1e-3 * s for s in found["network"]["parallel"][2]["radii"]]
     flow = found["network"]["parallel"][2]["flow"]
-    assert flow == pytest.approx((2 * eq9(0, 1.5e-3) + eq9(0, 1e-3)) * DP / (16e-3 - beside(6.4e-3, radii) - beside(9.6e-3, radii)), rel=1e-7)
+    assert flow == pytest.approx(
+        (2 * eq9(0, 1.5e-3) + eq9(0, 1e-3)) * DP / (16e-3 - beside(6.4e-3, radii) - beside(9.6e-3, radii)), rel=1e-7
+    )
 
 
 def test_randomPackAgainstADenseSolution(loadSample):
     loadSample()
-    engine = handmade.alone(conductanceLaw="constantShape", bulkModulus=math.inf, viscosity=MU, wallPressures=[NAN, NAN, 0.0, DP])
+    engine = handmade.alone(
+        conductanceLaw="constantShape", bulkModulus=math.inf, viscosity=MU, wallPressures=[NAN, NAN, 0.0, DP]
+    )
     O.step()
     cells, throats = engine.cells(), engine.throats()
     domain, void, pressure = (np.array(cells[name]) for name in ("domain", "void", "pressure"))
@@ -121,18 +138,23 @@ def test_lattices(found):
         a = 2e-3 * (1 + gap)
         assert expected == pytest.approx(MU * eq9(2e-3 * gap, 1e-3) / a / 1e-6, rel=1e-13)
     assert result["errors"]["square"] < 1e-12
-    # Along the rows: what the ends disturb is e^-13 of a few per cent, squared in the flow; the solver's 1e-12 over a gradient.
+    # Along the rows: what the ends disturb is e^-13 of a few per cent, squared in the flow; the solver's 1e-12 over a
+    # gradient.
     assert result["errors"]["triangular"] < 1e-11
-    # Across: the layers along the walls reach e^-(2 pi/sqrt(3)) per spacing into the sample, e^-11 at half of the six columns of the narrower one.
+    # Across: the layers along the walls reach e^-(2 pi/sqrt(3)) per spacing into the sample, e^-11 at half of the six
+    # columns of the narrower one.
     assert result["errors"]["across"] < math.exp(-11)
 
 
 @pytest.mark.parametrize("lattice, walls", [("square", [NAN, NAN, DP, 0.0]), ("triangular", [DP, 0.0, NAN, NAN])])
 def test_spacingCancels(lattice, walls):
-    # As k = mu G/w has no length of its own, samples of grains of 1 mm and 1 m have k/r^2 alike; of the whole sample, ends included.
+    # As k = mu G/w has no length of its own, samples of grains of 1 mm and 1 m have k/r^2 alike; of the whole sample,
+    # ends included.
     found = []
     for radius in (1e-3, 1.0):
-        disks, box = handmade.squareLattice(3, 5, radius) if lattice == "square" else handmade.triangularLattice(6, 4, radius)
+        disks, box = (
+            handmade.squareLattice(3, 5, radius) if lattice == "square" else handmade.triangularLattice(6, 4, radius)
+        )
         engine = handmade.fill(disks, box, bulkModulus=math.inf, viscosity=MU, wallPressures=walls)
         handmade.advance(1.0)
         found.append(max(engine.inflow().values()) / radius**2)
@@ -140,9 +162,12 @@ def test_spacingCancels(lattice, walls):
 
 
 def test_fourSpheresAtContactHaveTheFrictionFactorOfTheirDuct():
-    # Four touching circles: f Re = 6.606 (Fanning), so C~ = 8 A/(P^2 f Re) with P = 2 pi r. The engine's fit is good to 0.4 %.
+    # Four touching circles: f Re = 6.606 (Fanning), so C~ = 8 A/(P^2 f Re) with P = 2 pi r. The engine's fit is good to
+    # 0.4 %.
     disks, box = handmade.squareLattice(3, 4, 1e-3)
-    engine = handmade.fill(disks, box, conductanceLaw="fourSpheres", bulkModulus=math.inf, viscosity=MU, wallPressures=[NAN, NAN, DP, 0.0])
+    engine = handmade.fill(
+        disks, box, conductanceLaw="fourSpheres", bulkModulus=math.inf, viscosity=MU, wallPressures=[NAN, NAN, DP, 0.0]
+    )
     handmade.advance(1.0)
     k = MU * engine.inflow()["bottom"] * (box[3] - 2 * beside(1e-3, [1e-3])) / (box[1] * DP)
     shape = 8 * (4 - math.pi) / ((2 * math.pi) ** 2 * 6.606)
@@ -153,7 +178,8 @@ def test_pressureSpreadsAsTheErrorFunctionOfSecondOrderInTheSpacing(found):
     pulse = found["pulse"]
     for run, spacing in zip(pulse["runs"], pulse["spacings"]):
         assert run["porosity"] == pytest.approx(1 - math.pi / 4, rel=1e-12)
-        # The error is a^2 times a function derived in lattices.pulseError. What is left of it is of order a^3: less than a of it.
+        # The error is a^2 times a function derived in lattices.pulseError. What is left of it is of order a^3: less
+        # than a of it.
         assert run["misfit"] < spacing
         assert run["error"] == pytest.approx(run["predicted"], rel=spacing)
     # An order from errors a^2 (1 + c a), |c| < 1, at a and a/2 is off by less than c a/(2 ln 2).
@@ -174,7 +200,8 @@ def test_otherUnitsGiveTheSameCurves(found):
         assert found["units"]["diffusion"]["differences"][name] < 2**-53 * 1e4 * 10 + 1e-10
         # An overlap is a hundredth of a radius and pressures a hundredth of K_f: 1e-14 a step, a thousand steps.
         assert found["units"]["lattice"]["differences"][name] < 1e-9
-        # Damped, round-off grows to what the smallest push does. That is no error of the units, and no closed form bounds it; 1e-4 is found.
+        # Damped, round-off grows to what the smallest push does. That is no error of the units, and no closed form
+        # bounds it; 1e-4 is found.
         for problem in ("damped", "sample"):
             assert found["units"][problem]["differences"][name] < 1e-2
 
@@ -183,7 +210,8 @@ def test_unitsMoveWhatTheyShould(found):
     for problem in ("lattice", "damped", "sample"):
         rows = np.array(found["units"][problem]["curves"]["m, s, kg"])
         pressure, stress = rows.T
-        # Sealed and compressed by 1e-3 of the height: water by up to that over a porosity of 0.1 to 0.2. Without damping there are waves.
+        # Sealed and compressed by 1e-3 of the height: water by up to that over a porosity of 0.1 to 0.2. Without
+        # damping there are waves.
         assert 1e-3 < pressure[-1] - pressure[0] < 2e-2 and stress[-1] > stress[0]
         assert problem == "lattice" or np.all(np.diff(pressure) > 0)
 
@@ -191,15 +219,25 @@ def test_unitsMoveWhatTheyShould(found):
 # --- what is refused, the table -------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("call, message", [
-    (lambda: closedforms.twoPores(radius=0.0), "radius = 0.0, allowed: a finite number > 0"),
-    (lambda: closedforms.network(viscosity=-1.0), "viscosity = -1.0, allowed: a finite number > 0"),
-    (lambda: closedforms.checkClosedForms(bulkModulus=math.inf), "bulkModulus = inf, allowed: a finite number > 0"),
-    (lambda: lattices.permeabilities(gaps=(0.0, -0.3)), "gaps = [0.0, -0.3], allowed: > -0.29 and <= 1 of the diameter"),
-    (lambda: lattices.pulse(spacings=(0.7,)), "spacings = [0.7], allowed: > 0 and <= 0.5 of the length"),
-    (lambda: handmade.squareLattice(2, 2, 1e-3, -2e-3), "gap = -0.002 m, allowed: > -2 radius = -0.002"),
-    (lambda: handmade.triangularLattice(1, 2, 1e-3), "columns = 1, allowed: a whole number >= 2"),
-    (lambda: units.checkUnits(systems=(units.Units("none", time=0.0),)), "none: time = 0.0, allowed: a finite number > 0")])
+@pytest.mark.parametrize(
+    "call, message",
+    [
+        (lambda: closedforms.twoPores(radius=0.0), "radius = 0.0, allowed: a finite number > 0"),
+        (lambda: closedforms.network(viscosity=-1.0), "viscosity = -1.0, allowed: a finite number > 0"),
+        (lambda: closedforms.checkClosedForms(bulkModulus=math.inf), "bulkModulus = inf, allowed: a finite number > 0"),
+        (
+            lambda: lattices.permeabilities(gaps=(0.0, -0.3)),
+            "gaps = [0.0, -0.3], allowed: > -0.29 and <= 1 of the diameter",
+        ),
+        (lambda: lattices.pulse(spacings=(0.7,)), "spacings = [0.7], allowed: > 0 and <= 0.5 of the length"),
+        (lambda: handmade.squareLattice(2, 2, 1e-3, -2e-3), "gap = -0.002 m, allowed: > -2 radius = -0.002"),
+        (lambda: handmade.triangularLattice(1, 2, 1e-3), "columns = 1, allowed: a whole number >= 2"),
+        (
+            lambda: units.checkUnits(systems=(units.Units("none", time=0.0),)),
+            "none: time = 0.0, allowed: a finite number > 0",
+        ),
+    ],
+)
 def test_impossibleValuesAreRefused(call, message):
     with pytest.raises(CaseError) as problem:
         call()
@@ -210,5 +248,9 @@ def test_tableHasEveryNumber(found):
     table = closedforms.table(found)
     rows = list(zip(*table.values()))
     assert list(table) == ["check", "measure", "value [-]"]
-    assert ("lattices", "square", found["lattices"]["errors"]["square"]) in rows and ("pulse", "orders 3", found["pulse"]["orders"][2]) in rows
+    assert ("lattices", "square", found["lattices"]["errors"]["square"]) in rows and (
+        "pulse",
+        "orders 3",
+        found["pulse"]["orders"][2],
+    ) in rows
     assert {row[0] for row in rows} == {"twoPores", "network", "lattices", "pulse", "units"}

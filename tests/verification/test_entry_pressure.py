@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Entry pressures that GasInvasionEngine.throats() reports, against Eq. 15 of Jain & Juanes (2008) as corrected.
 
 The engine is one of several places where a factor of two could hide (radius or diameter, mean radius, gap of a wall or
@@ -68,7 +69,9 @@ def test_contactAngle(throats, degrees):
 
 
 @pytest.mark.parametrize("r", [1e-6, 1e-3])
-@pytest.mark.parametrize("halfGap, table", [(-0.05, 4.908), (0, 4.492), (0.02, 4.341), (0.1, 3.809), (0.5, 2.0), (1, 1.0)])
+@pytest.mark.parametrize(
+    "halfGap, table", [(-0.05, 4.908), (0, 4.492), (0.02, 4.341), (0.1, 3.809), (0.5, 2.0), (1, 1.0)]
+)
 def test_mayerStowePrincen(throats, r, halfGap, table):
     # The table of the project's physics notes (section 3.1), computed apart, to one unit of its last digit.
     p = throats(*pairOf(2 * r * halfGap, r, r), entryLaw="mayerStowePrincen")[4, 5]
@@ -89,11 +92,15 @@ def test_everyThroatOfARandomPack(throats, looseDisks):
         assert p == pytest.approx(expected, rel=1e-13)
 
 
-@pytest.mark.parametrize("name, bad, message", [
-    ("interfacialTension", 0, r"interfacialTension \[N/m\] = 0, allowed: finite and > 0"),
-    ("contactAngle", math.pi / 2, r"contactAngle \[rad\] = 1.57.*pi/2"),
-    ("contactAngle", -0.1, r"contactAngle \[rad\] = -0.1"),
-    ("entryLaw", "young", "entryLaw = 'young', allowed: 'inscribedSphere', 'mayerStowePrincen'")])
+@pytest.mark.parametrize(
+    "name, bad, message",
+    [
+        ("interfacialTension", 0, r"interfacialTension \[N/m\] = 0, allowed: finite and > 0"),
+        ("contactAngle", math.pi / 2, r"contactAngle \[rad\] = 1.57.*pi/2"),
+        ("contactAngle", -0.1, r"contactAngle \[rad\] = -0.1"),
+        ("entryLaw", "young", "entryLaw = 'young', allowed: 'inscribedSphere', 'mayerStowePrincen'"),
+    ],
+)
 def test_impossibleValuesAreRefusedByName(name, bad, message):
     with pytest.raises(ValueError, match=message):
         GasInvasionEngine(**{name: bad})

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Trapped water that leaves by films: linear in time, q = K (P_c - P_e), pore after pore."""
 
 import math
@@ -10,7 +11,9 @@ K = 1e-8  # m^3/(Pa s): a pore of some 3e-7 m^3 empties within some hundred step
 
 @pytest.fixture
 def trapped(standing):
-    """A function (**attributes) -> gas engine in grains that stand still, drained at 300 Pa with clusters of water left; time steps of 1 ms."""
+    """A function (**attributes) -> gas engine in grains that stand still, drained at 300 Pa with clusters of water
+    left; time steps of 1 ms.
+    """
 
     def make(**attributes):
         gas = standing(trapping=True, gasPressure=300, **attributes)
@@ -23,7 +26,9 @@ def trapped(standing):
 
 
 def clusters(gas):
-    """Clusters of water without an outlet, from the reported lists: (cells, lowest entry pressure to gas, cells of the pore behind that throat)."""
+    """Clusters of water without an outlet, from the reported lists: (cells, lowest entry pressure to gas, cells of the
+    pore behind that throat).
+    """
     cells, throats = gas.cells(), gas.throats()
     water = {c for c, phase in enumerate(cells["phase"]) if not phase}
     edges = [(a, b, p) for (a, b), p in zip(throats["cells"], throats["entryPressure"]) if a >= 0 and b >= 0]
@@ -38,8 +43,21 @@ def clusters(gas):
             grown = bool(more)
         left -= group
         if not group & free:
-            p, behind = min(((p, y) for a, b, p in edges for x, y in ((a, b), (b, a)) if y in group and x not in water), default=(math.inf, None))
-            found.append((group, p, {c for c in group if cells["domain"][c] == cells["domain"][behind]} if behind is not None else set()))
+            p, behind = min(
+                ((p, y) for a, b, p in edges for x, y in ((a, b), (b, a)) if y in group and x not in water),
+                default=(math.inf, None),
+            )
+            found.append(
+                (
+                    group,
+                    p,
+                    (
+                        {c for c in group if cells["domain"][c] == cells["domain"][behind]}
+                        if behind is not None
+                        else set()
+                    ),
+                )
+            )
     return found
 
 
@@ -65,7 +83,11 @@ def test_poresEmptyAfterTheirVolumeOverTheFlow(trapped):
     gas = trapped()
     gas.filmConductance = K
     begin, water = O.time, gas.cells()["water"]
-    due = sorted((begin + sum(water[c] for c in behind) / (K * (300 - p)), sorted(behind)) for _, p, behind in clusters(gas) if p < 299)
+    due = sorted(
+        (begin + sum(water[c] for c in behind) / (K * (300 - p)), sorted(behind))
+        for _, p, behind in clusters(gas)
+        if p < 299
+    )
     assert len(due) > 2
     # The first pores of all clusters: each cluster empties by itself.
     for when, behind in due[:3]:
@@ -79,7 +101,9 @@ def test_poresEmptyAfterTheirVolumeOverTheFlow(trapped):
 
 def test_pressureOfACluster(trapped):
     gas = trapped(waterPressure=20)
-    assert {p for p, phase in zip(gas.cells()["pressure"], gas.cells()["phase"]) if not phase} == {20}  # locked: as ever
+    assert {p for p, phase in zip(gas.cells()["pressure"], gas.cells()["phase"]) if not phase} == {
+        20
+    }  # locked: as ever
     gas.filmConductance = K
     pressures = gas.cells()["pressure"]
     for group, p, _ in clusters(gas):

@@ -1,8 +1,9 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Gas at a rate into a rigid, sealed pack of known volumes, against closed forms.
 
 Between two entries the volume of the gas is constant, so p(t) + p_0 = (M_0 + q t) Z R T/(M V) with V the volumes of the
-reservoir, the inlet and all pores entered so far. The grains stand still: volumes and entry pressures are those that the
-engine lists before the injection. Round-off: a few hundred sums, each to some eps, 1e-12 at most.
+reservoir, the inlet and all pores entered so far. The grains stand still: volumes and entry pressures are those that
+the engine lists before the injection. Round-off: a few hundred sums, each to some eps, 1e-12 at most.
 """
 
 import numpy as np
@@ -22,9 +23,24 @@ def pack(settledScene):
 
     def make(**attributes):
         walls = settledScene()
-        gas = GasInvasionEngine(checkInvariants=True, **{**dict(
-            gasPressure=START, gasLaw="ideal", gasMolarMass=MOLAR_MASS, gasTemperature=TEMPERATURE, gasDeviation=DEVIATION, pressureDatum=DATUM,
-            gasControl="rate", gasRate=RATE, reservoirVolume=RESERVOIR, historyInterval=1), **attributes})
+        gas = GasInvasionEngine(
+            checkInvariants=True,
+            **{
+                **dict(
+                    gasPressure=START,
+                    gasLaw="ideal",
+                    gasMolarMass=MOLAR_MASS,
+                    gasTemperature=TEMPERATURE,
+                    gasDeviation=DEVIATION,
+                    pressureDatum=DATUM,
+                    gasControl="rate",
+                    gasRate=RATE,
+                    reservoirVolume=RESERVOIR,
+                    historyInterval=1,
+                ),
+                **attributes,
+            },
+        )
         gas.inletFrom, gas.inletTo = gas.inletStretch(2, 0.5 * (walls[0] + walls[1]))
         O.engines, O.dt = [ForceResetter(), gas], DT
         O.engines[1].prepare()
@@ -70,7 +86,8 @@ def test_poresAreEnteredAtTheirEntryPressures(pack):
     rise = RATE * DT * PER_DENSITY / RESERVOIR  # of one step, at the smallest volume of the gas
     pressures, entries, iterations = (np.array(events[name]) for name in ("gasPressure", "entryPressure", "iteration"))
     assert np.all(pressures >= entries)
-    # The first of a step met a pressure that had not been there before, by no more than the rise of the step; none was open a step ago.
+    # The first of a step met a pressure that had not been there before, by no more than the rise of the step; none was
+    # open a step ago.
     first = np.concatenate([[True], np.diff(iterations) > 0])
     assert first.sum() > 10 and np.all(pressures[first] <= entries[first] + rise)
     # What follows in the same step was opened by the pore before it: at a pressure that this pore has lowered.
@@ -87,12 +104,15 @@ def test_halfTheStepGivesTheSamePoresAtTheSamePressures(pack):
     (coarse, last), (fine, lastFine) = run(1), run(4)
     assert coarse["throat"] == fine["throat"]
     rise = RATE * DT * PER_DENSITY / RESERVOIR
-    np.testing.assert_allclose(coarse["gasPressure"], fine["gasPressure"], rtol=0, atol=rise)  # an entry is late by a step at most
+    np.testing.assert_allclose(
+        coarse["gasPressure"], fine["gasPressure"], rtol=0, atol=rise
+    )  # an entry is late by a step at most
     assert last == pytest.approx(lastFine, rel=1e-10)  # the same gas in the same pores
 
 
 def test_smallVolumesFillAtTheRateOfTheSupply(pack):
-    # Without a reservoir the gas of two pores cannot fill a third: its pressure falls to the water's, and the pore fills by and by.
+    # Without a reservoir the gas of two pores cannot fill a third: its pressure falls to the water's, and the pore
+    # fills by and by.
     gas = pack(reservoirVolume=0.0, gasRate=2e-4)
     inlet = gas.volumes()["gas"]
     mass = (START + DATUM) / PER_DENSITY * inlet

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What is read from the curves of the laboratory, on curves that are known in closed form."""
 
 import math
@@ -6,7 +7,7 @@ import numpy as np
 import pytest
 
 from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, hydrate_ridge, settling, tables
+from capfrac.lab import biaxial, compaction, hydrate_ridge, properties, settling
 from capfrac.lab.box import COLUMNS
 
 
@@ -14,8 +15,14 @@ def rowsOf(strain, stress, branch=None, e0=1.0):
     """Rows of a compaction with that curve."""
     n = len(strain)
     rows = {name: [0.0] * n for name in COLUMNS}
-    rows.update({"strain [-]": list(strain), "stressV [Pa]": list(stress), "voidRatio [-]": list((1 + e0) * (1 - np.asarray(strain)) - 1),
-                 "branch": branch or ["virgin"] * n})
+    rows.update(
+        {
+            "strain [-]": list(strain),
+            "stressV [Pa]": list(stress),
+            "voidRatio [-]": list((1 + e0) * (1 - np.asarray(strain)) - 1),
+            "branch": branch or ["virgin"] * n,
+        }
+    )
     return rows
 
 
@@ -27,13 +34,15 @@ def test_compressionIndexOfAStraightLine(index, e0):
     # Interpolated in log stress, where the curve is straight: round-off of a few hundred additions.
     assert found.Cc == pytest.approx(index, rel=1e-10)
     assert found.voidRatio == pytest.approx(e0, rel=1e-15)
-    assert compaction.evaluate(rowsOf(strain, stress), voidRatio=e0, fitFrom=100e3, fitTo=1e6).Cc == pytest.approx(index, rel=1e-10)
+    assert compaction.evaluate(rowsOf(strain, stress), voidRatio=e0, fitFrom=100e3, fitTo=1e6).Cc == pytest.approx(
+        index, rel=1e-10
+    )
     assert found.table["voidRatioUsed [-]"][-1] == pytest.approx(e0 - index * math.log10(200), rel=1e-10)
 
 
 def test_compressionIndexOfSprings():
-    # strain = stress/M: -de/dlog10(sigma) = (1 + e0) ln 10 strain; over a decade to s the least-squares slope is that of the
-    # exponential, known by integration: 12 Int (t - 1/2) 10^(t-1) dt over [0, 1] times the strain at s.
+    # strain = stress/M: -de/dlog10(sigma) = (1 + e0) ln 10 strain; over a decade to s the least-squares slope is that
+    # of the exponential, known by integration: 12 Int (t - 1/2) 10^(t-1) dt over [0, 1] times the strain at s.
     stress = np.linspace(1e3, 1e6, 5000)
     found = compaction.evaluate(rowsOf(stress / 1e7, stress, e0=0.0), fitFrom=100e3, fitTo=1e6)
     c = math.log(10)
@@ -54,7 +63,7 @@ def test_loopOfTwoStraightBranches():
     strain = [0.0, 0.1, 0.08, 0.06, 0.07, 0.1]
     stress = [1e3, 1e5, 5.5e4, 1e4, 5e4, 1e5]
     branch = ["virgin", "virgin", "unload 1", "unload 1", "reload 1", "reload 1"]
-    loop, = compaction.evaluate(rowsOf(strain, stress, branch, e0=1.0), fitFrom=2e3, fitTo=5e4).loops
+    (loop,) = compaction.evaluate(rowsOf(strain, stress, branch, e0=1.0), fitFrom=2e3, fitTo=5e4).loops
     assert loop["strain"] == 0.1 and loop["stress"] == 1e5
     assert loop["Cr"] == pytest.approx(2 * 0.04 / 1, rel=1e-12)  # one decade of stress
     assert loop["recovered"] == pytest.approx(0.4, rel=1e-12)
@@ -98,16 +107,23 @@ def test_powerLawAndItsError():
 
 
 def test_spread():
-    assert tables.spread([1.0, 1.1, 0.9]) == pytest.approx(0.2)
+    assert properties.spread([1.0, 1.1, 0.9]) == pytest.approx(0.2)
 
 
 class TestHydrateRidge:
     def result(self, index, loops):
         stress = np.geomspace(10e3, 2e6, 400)
-        found = compaction.evaluate(rowsOf(index / 2.5 * np.log10(stress / 10e3), stress), voidRatio=1.5, fitFrom=100e3, fitTo=1e6).asDict()
+        found = compaction.evaluate(
+            rowsOf(index / 2.5 * np.log10(stress / 10e3), stress), voidRatio=1.5, fitFrom=100e3, fitTo=1e6
+        ).asDict()
         found["loops"] = loops
-        return {"stiffness": dict.fromkeys(("average", "stiffest", "softest"), 1e7), "Cc": dict.fromkeys(("average", "stiffest", "softest"), index),
-                "compactions": {"average": found}, "laboratory": None, "local": hydrate_ridge.inReportedRange(found)}
+        return {
+            "stiffness": dict.fromkeys(("average", "stiffest", "softest"), 1e7),
+            "Cc": dict.fromkeys(("average", "stiffest", "softest"), index),
+            "compactions": {"average": found},
+            "laboratory": None,
+            "local": hydrate_ridge.inReportedRange(found),
+        }
 
     def test_localIndexOfAStraightLine(self):
         found = self.result(0.5, [])["compactions"]["average"]
@@ -116,7 +132,14 @@ class TestHydrateRidge:
         assert stress[0] == pytest.approx(10e3 * 10**0.15) and stress[-1] == pytest.approx(2e6 / 10**0.15)
 
     def test_rangeAndWords(self):
-        loop = {"strain": 0.2, "stress": 1e6, "Cr": 0.05, "recovered": 0.1, "irreversibleStrain": 0.18, "hysteresis": 0.1}
+        loop = {
+            "strain": 0.2,
+            "stress": 1e6,
+            "Cr": 0.05,
+            "recovered": 0.1,
+            "irreversibleStrain": 0.18,
+            "hysteresis": 0.1,
+        }
         inside, outside = self.result(0.5, [loop]), self.result(0.2, [{**loop, "Cr": 0.3}])
         assert inside["local"] and outside["local"] == []
         words = " ".join(hydrate_ridge.verdict(inside))

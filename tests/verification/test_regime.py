@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Theory of the change of mode, fits of it, and Hydrate Ridge by depth, against numbers worked out by hand."""
 
 import math
@@ -12,16 +13,38 @@ from capfrac.errors import CaseError
 GAMMA, STRESS = 0.05, 8e3
 
 
-@pytest.mark.parametrize("r, rigid, five, twelve, fifty", [(1.5e-3, 0.155, 8.15, 8.10, 8.05), (150e-6, 1.55, 9.49, 8.95, 8.47), (30e-6, 7.75, 15.5, 12.7, 10.4),
-                                                           (15e-6, 15.5, 22.9, 17.5, 12.7), (5e-6, 46.5, 52.7, 36.4, 22.1), (1.5e-6, 155, 157, 103, 55)])
+@pytest.mark.parametrize(
+    "r, rigid, five, twelve, fifty",
+    [
+        (1.5e-3, 0.155, 8.15, 8.10, 8.05),
+        (150e-6, 1.55, 9.49, 8.95, 8.47),
+        (30e-6, 7.75, 15.5, 12.7, 10.4),
+        (15e-6, 15.5, 22.9, 17.5, 12.7),
+        (5e-6, 46.5, 52.7, 36.4, 22.1),
+        (1.5e-6, 155, 157, 103, 55),
+    ],
+)
 def test_pressuresOfBothModes(r, rigid, five, twelve, fifty):
-    """In kPa, chi = 10, worked out to three digits (8.15 and its neighbours: rounded to 0.01; 55: to 1): half a unit of the last one."""
+    """In kPa, chi = 10, worked out to three digits (8.15 and its neighbours: rounded to 0.01; 55: to 1): half a unit of
+    the last one.
+    """
     assert regime.rigidThreshold(r, GAMMA) / 1e3 == pytest.approx(rigid, rel=5e-3)
     for a, value in ((5, five), (12.4, twelve), (50, fifty)):
         assert regime.fracturePressure(STRESS, 10, r, GAMMA, a * r) / 1e3 == pytest.approx(value, rel=6e-3)
 
 
-@pytest.mark.parametrize("chi, a, atEight, atThousand", [(0, 5, 29, 0.23), (0, 50, 29, 0.23), (1.57, 5, 25, 0.20), (1.57, 50, 28, 0.22), (10, 5, 1.1, 0.009), (10, 12.4, 11, 0.09), (10, 50, 20, 0.16)])
+@pytest.mark.parametrize(
+    "chi, a, atEight, atThousand",
+    [
+        (0, 5, 29, 0.23),
+        (0, 50, 29, 0.23),
+        (1.57, 5, 25, 0.20),
+        (1.57, 50, 28, 0.22),
+        (10, 5, 1.1, 0.009),
+        (10, 12.4, 11, 0.09),
+        (10, 50, 20, 0.16),
+    ],
+)
 def test_criticalRadius(chi, a, atEight, atThousand):
     """In um at 8 kPa and 1 MPa, worked out to one or two digits: half a unit of the last digit."""
     for stress, value in ((8e3, atEight), (1e6, atThousand)):
@@ -32,19 +55,28 @@ def test_criticalRadius(chi, a, atEight, atThousand):
 def test_criticalRadiusIsWhereBothPressuresMeet():
     for chi, a in ((0, 7), (1.57, 3), (10, 9)):
         r = regime.criticalRadius(STRESS, chi, GAMMA, a)
-        assert regime.fracturePressure(STRESS, chi, r, GAMMA, a * r) == pytest.approx(regime.rigidThreshold(r, GAMMA), rel=1e-12)
+        assert regime.fracturePressure(STRESS, chi, r, GAMMA, a * r) == pytest.approx(
+            regime.rigidThreshold(r, GAMMA), rel=1e-12
+        )
     assert regime.criticalRadius(STRESS, 10, GAMMA, 4) == 0  # sqrt(1/4) > 4.65/10: never
 
 
 def test_changeBetweenSharpModesIsTheMiddleOfTheGap():
     change = regime.modeChange([1e-6, 1e-5, 4e-5, 1e-3], ["fracture", "fracture", "mixed", "capillary"])
-    assert (change.low, change.high, change.rigid, change.runs) == (pytest.approx(1e-5), pytest.approx(4e-5), pytest.approx(1e-3), 4)
+    assert (change.low, change.high, change.rigid, change.runs) == (
+        pytest.approx(1e-5),
+        pytest.approx(4e-5),
+        pytest.approx(1e-3),
+        4,
+    )
     assert change.radius == pytest.approx(2e-5, rel=1e-12)
 
 
 def test_changeWhereModesOverlap():
     """Symmetric in ln r about 1e-5, so is the fit; the grid of middles has steps of ln(1e4)/800."""
-    change = regime.modeChange([1e-7, 1e-6, 1e-6, 1e-4, 1e-4, 1e-3], ["fracture", "fracture", "mixed", "fracture", "mixed", "capillary"])
+    change = regime.modeChange(
+        [1e-7, 1e-6, 1e-6, 1e-4, 1e-4, 1e-3], ["fracture", "fracture", "mixed", "fracture", "mixed", "capillary"]
+    )
     assert change.radius == pytest.approx(1e-5, rel=math.log(1e4) / 800)
     assert (change.low, change.high, change.rigid) == (pytest.approx(1e-7), pytest.approx(1e-3), pytest.approx(1e-3))
 
@@ -56,8 +88,12 @@ def test_withoutAChangeThereIsNoRadius(modes):
 
 def test_crossing():
     # Falls by four decades over two: 0.5 is at a share lg(10/0.5)/4 of them. Means of two values are geometric.
-    assert regime.crossing([1e-6, 1e-4], [10, 1e-3], 0.5) == pytest.approx(1e-6 * 10 ** (2 * math.log10(20) / 4), rel=1e-12)
-    assert regime.crossing([1e-6, 1e-6, 1e-4], [100, 1, 1e-3], 0.5) == pytest.approx(1e-6 * 10 ** (2 * math.log10(20) / 4), rel=1e-12)
+    assert regime.crossing([1e-6, 1e-4], [10, 1e-3], 0.5) == pytest.approx(
+        1e-6 * 10 ** (2 * math.log10(20) / 4), rel=1e-12
+    )
+    assert regime.crossing([1e-6, 1e-6, 1e-4], [100, 1, 1e-3], 0.5) == pytest.approx(
+        1e-6 * 10 ** (2 * math.log10(20) / 4), rel=1e-12
+    )
     # The last of two crossings, and none.
     assert 1e-3 < regime.crossing([1e-6, 1e-5, 1e-3, 1e-2], [1, 0.1, 1, 0.1], 0.5) < 1e-2
     assert math.isnan(regime.crossing([1e-6, 1e-5], [3, 1], 0.5)) and math.isnan(regime.crossing([1e-6], [3], 0.5))
@@ -65,7 +101,10 @@ def test_crossing():
 
 def test_powerLaw():
     law = regime.powerLaw([1, 10, 100], [3, 0.3, 0.03])
-    assert (law.factor, law.exponent) == (pytest.approx(3, rel=1e-12), pytest.approx(-1, rel=1e-12)) and law.error < 1e-12
+    assert (law.factor, law.exponent) == (
+        pytest.approx(3, rel=1e-12),
+        pytest.approx(-1, rel=1e-12),
+    ) and law.error < 1e-12
     # Residuals 1, -2, 1 times d about the line: standard error sqrt(6 d^2 / 1 / 2) for abscissas -1, 0, 1.
     d = 0.01
     law = regime.powerLaw(np.exp([-1, 0, 1]), np.exp([d, -2 * d, d]))
@@ -84,7 +123,9 @@ def test_stressOfThePorosityModel():
 
 def test_methane():
     """An ideal gas where it is thin; by the equation of state itself elsewhere."""
-    assert depth.methaneDensity(1e3, 280.0) == pytest.approx(1e3 * 0.016043 / (8.314 * 280), rel=1e-4)  # second virial coefficient: -50 cm^3/mol, so 2e-5 at 1 kPa
+    assert depth.methaneDensity(1e3, 280.0) == pytest.approx(
+        1e3 * 0.016043 / (8.314 * 280), rel=1e-4
+    )  # second virial coefficient: -50 cm^3/mol, so 2e-5 at 1 kPa
     p, t = 8.5e6, 280.0
     volume = 0.016043 / float(depth.methaneDensity(p, t))
     kappa = 0.37464 + 1.54226 * 0.011 - 0.26992 * 0.011**2

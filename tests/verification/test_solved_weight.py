@@ -1,4 +1,7 @@
-"""Gas and water that are solved for, with weights: rest, forces, columns, and the slow limit, which is that of drained water."""
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Gas and water that are solved for, with weights: rest, forces, columns, and the slow limit, which is that of drained
+water.
+"""
 
 import math
 
@@ -28,7 +31,8 @@ def test_waterAtRestStaysAtRest(standing):
     pores = gas.pores()
     height, pressure = heightOverInlet(pores["y"]), np.array(pores["pressure"])
     inWater, inGas = np.abs(pressure - (7 - RHO * G * height)), np.abs(pressure - (20 - 80 * G * height))
-    # What a volume rounds to is 2e-16 K_f of pressure, 5e-7 Pa; a volume counts as filled to 16 roundings. Gas: 1e-7 of the pressures.
+    # What a volume rounds to is 2e-16 K_f of pressure, 5e-7 Pa; a volume counts as filled to 16 roundings. Gas: 1e-7 of
+    # the pressures.
     assert np.minimum(inWater, inGas).max() < 16 * 5e-7 and np.sum(inGas < inWater) == gas.inletPores
     assert gas.nEvents == 0 and gas.volumes()["error"] < 1e-14
     assert gas.volumes()["water"] == pytest.approx(gas.volumes()["initialWater"], rel=1e-14)
@@ -57,7 +61,9 @@ def test_forcesAddUpToTheWeightOfBothFluids(standing, gravity):
 
 @pytest.mark.parametrize("gravity", [0.0, G, 40.0])
 def test_breakthroughOfAChain(chain, gravity):
-    """At the entry pressure less (rho_w - rho_g) g z of the throat that needs most: the column of gas below it helps."""
+    """At the entry pressure less (rho_w - rho_g) g z of the throat that needs most: the column of gas below it
+    helps.
+    """
     gaps = [0.30 * R, 0.42 * R, 0.26 * R, 0.37 * R, 0.21 * R, 0.33 * R]
     gas = chain(gaps, gravity, gasDensity=80, **{k: v for k, v in SOLVED.items() if k != "poreMode"})
     expected = max(equation15(2 * gap, R) - (RHO - 80) * gravity * (R + 1.98 * R * k) for k, gap in enumerate(gaps))
@@ -71,9 +77,14 @@ def test_breakthroughOfAChain(chain, gravity):
 
 @pytest.mark.parametrize("gravity, pressures", [(G, range(95, 130)), (-0.5 * G, range(150, 240, 2))])
 def test_slowGasEntersTheSamePoresAsInDrainedWater(standing, gravity, pressures):
-    """Level by level, as gas rises, and as it is pressed down by its buoyancy. Pores that fill at once in the last avalanche may cut water off in another order."""
+    """Level by level, as gas rises, and as it is pressed down by its buoyancy. Pores that fill at once in the last
+    avalanche may cut water off in another order.
+    """
     found = {}
-    for water, attributes in (("drained", dict(trapping=True, poreMode="triangle")), ("solved", dict(viscosity=1e-5, **SOLVED))):
+    for water, attributes in (
+        ("drained", dict(trapping=True, poreMode="triangle")),
+        ("solved", dict(viscosity=1e-5, **SOLVED)),
+    ):
         gas = standing(gasPressure=pressures[0], **attributes, **{**WEIGHT, "gravity": (0, -gravity)})
         O.dt, found[water] = 1e-4, []
         for pressure in pressures:

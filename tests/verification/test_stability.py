@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Long runs with real water, shortened (the full ones: `--validation`), and what the coupling may not do."""
 
 import math
@@ -7,8 +8,8 @@ import pytest
 from yade import O
 from yade.wrapper import SinglePhaseFlowEngine
 
-from capfrac.lab.water import stability
-from capfrac.sediment import Sediment
+from capfrac.scene.sediment import Sediment
+from capfrac.verification import stability
 
 SAMPLE = Sediment(grainCount=40, rMin=1e-2, shearStiffness=4e6, seed=1)
 
@@ -16,9 +17,9 @@ SAMPLE = Sediment(grainCount=40, rMin=1e-2, shearStiffness=4e6, seed=1)
 @pytest.mark.parametrize("bulkModulus", [1e7, 2.2e9, math.inf])
 def test_undrainedStableNeverGainsEnergy(bulkModulus):
     found = stability.shake(SAMPLE, bulkModulus, steps=3000)
-    # What a leapfrog keeps is the energy of the velocities before and after, multiplied. With one of them alone it is off
-    # by dt F v/2, at most omega dt/2 of it, with omega dt <= 0.3 sqrt(2 z) and z <= 6 contacts; at random, so that a mean
-    # is not. Friction and the fluid only take.
+    # What a leapfrog keeps is the energy of the velocities before and after, multiplied. With one of them alone it is
+    # off by dt F v/2, at most omega dt/2 of it, with omega dt <= 0.3 sqrt(2 z) and z <= 6 contacts; at random, so that
+    # a mean is not. Friction and the fluid only take.
     assert found["end"] == "bounded" and max(found["energy"]) < 1.5 and max(found["ledger"]) < 1e-13
     assert np.mean(found["energy"][-50:]) < 1.05
     assert max(found["pressure"]) > 1e3  # the water bears load
@@ -54,11 +55,15 @@ def test_noWorkOverAClosedUndrainedCycle(handScene, looseDisks):
         disks, box = looseDisks(count=25, seed=4)
         grains = handScene(disks, box)
         # Pores that exchange nothing: pressures are functions of the positions alone, so their forces have a potential.
-        engine = SinglePhaseFlowEngine(timeIntegration="implicit", bulkModulus=1e7, viscosity=1e12, poreMode="triangle", remeshDisplacement=1)
+        engine = SinglePhaseFlowEngine(
+            timeIntegration="implicit", bulkModulus=1e7, viscosity=1e12, poreMode="triangle", remeshDisplacement=1
+        )
         O.engines = [engine]
         O.dt = 1e-6
         random = np.random.default_rng(5)
-        start, one, two = np.array([O.bodies[i].state.pos for i in grains]), *(random.uniform(-1e-5, 1e-5, (2, len(grains), 3)) * (1, 1, 0))
+        start, one, two = np.array([O.bodies[i].state.pos for i in grains]), *(
+            random.uniform(-1e-5, 1e-5, (2, len(grains), 3)) * (1, 1, 0)
+        )
         sums, last, before = [], None, None
         for n in range(steps + 1):
             angle = 2 * math.pi * n / steps
@@ -75,6 +80,6 @@ def test_noWorkOverAClosedUndrainedCycle(handScene, looseDisks):
         return abs(sum(sums)), sum(map(abs, sums))
 
     coarse, fine = work(20), work(40)
-    # The trapezoidal rule on a closed, smooth path converges faster than any power; what is left is the first-order storage, V/K of the end of
-    # the step: dp/K = 1e-2.
+    # The trapezoidal rule on a closed, smooth path converges faster than any power; what is left is the first-order
+    # storage, V/K of the end of the step: dp/K = 1e-2.
     assert coarse[0] < 1e-3 * coarse[1] and fine[0] < 0.6 * coarse[0] + 1e-9 * coarse[1]

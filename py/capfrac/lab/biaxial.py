@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Biaxial tests: from contacts to Young's modulus, Poisson's ratio, friction angle and cohesion.
 
 A sample is brought to an isotropic stress, bonded where asked for, and compressed vertically while the side walls keep
@@ -11,12 +12,12 @@ import math
 
 import numpy as np
 
-from capfrac import sediment
 from capfrac.errors import CaseError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
-from capfrac.runfolder import exactText
+from capfrac.run.folder import exactText
+from capfrac.scene import sediment
 from capfrac.values import isNotNegative, isPositive, shown
 
 #: Share of the largest deviator up to which the moduli are taken [-]: before grains slide on a large scale.
@@ -28,12 +29,16 @@ def biaxialTest(sample, stress, strain=0.08, bondStrength=0.0, inertialNumber=IN
 
     ``bondStrength``: sigma_c = tau_c of Eq. 5 [Pa], bonds set at the isotropic state; 0: none. ``packing``
     (x, y, r) [m]: grains to begin with, instead of settling new ones. The dict holds ``table``
-    (columns of :data:`box.COLUMNS`), ``peak`` and ``residual`` (vertical stress [Pa]), ``strainAtPeak``, ``youngModulus``
-    [Pa], ``poissonRatio``, ``bonds`` and ``brokenBonds``, ``quasiStatic``. Raises :class:`CaseError` for impossible values.
+    (columns of :data:`box.COLUMNS`), ``peak`` and ``residual`` (vertical stress [Pa]), ``strainAtPeak``,
+    ``youngModulus`` [Pa], ``poissonRatio``, ``bonds`` and ``brokenBonds``, ``quasiStatic``. Raises :class:`CaseError`
+    for impossible values.
     """
     run = run or LabRun("biaxial", {})
-    for name, value, good, allowed in (("stress", stress, isPositive, "> 0"), ("strain", strain, isPositive, "> 0"),
-                                       ("bondStrength", bondStrength, isNotNegative, ">= 0")):
+    for name, value, good, allowed in (
+        ("stress", stress, isPositive, "> 0"),
+        ("strain", strain, isPositive, "> 0"),
+        ("bondStrength", bondStrength, isNotNegative, ">= 0"),
+    ):
         if not good(value):
             raise CaseError(f"{name} = {shown(value)}, allowed: {allowed}")
     box = Box(sample, run, inertialNumber)
@@ -63,49 +68,79 @@ def evaluate(rows, stress, bonds=0, quasiStatic=None):
     young = np.polyfit(axial[:elastic], vertical[:elastic], 1)[0]
     poisson = -np.polyfit(axial[:elastic], lateral[:elastic], 1)[0]
     last = vertical[axial >= 0.9 * axial[-1]]
-    return {"table": {name: list(values) for name, values in rows.items()}, "stress": float(stress), "peak": float(vertical[peak]), "strainAtPeak": float(axial[peak]),
-            "residual": float(last.mean()), "youngModulus": float(young), "poissonRatio": float(poisson), "bonds": bonds,
-            "brokenBonds": int(rows["brokenBonds"][-1]), "quasiStatic": quasiStatic or {}}
+    return {
+        "table": {name: list(values) for name, values in rows.items()},
+        "stress": float(stress),
+        "peak": float(vertical[peak]),
+        "strainAtPeak": float(axial[peak]),
+        "residual": float(last.mean()),
+        "youngModulus": float(young),
+        "poissonRatio": float(poisson),
+        "bonds": bonds,
+        "brokenBonds": int(rows["brokenBonds"][-1]),
+        "quasiStatic": quasiStatic or {},
+    }
 
 
 def mohrCoulomb(confining, peak):
     """Friction angle [degrees] and cohesion [Pa] of the least-squares line through peaks: a dict, with ``residual``.
 
-    ``residual``: largest distance of a peak from the line over the peak [-]. Raises :class:`CaseError` for fewer than two
-    confining stresses.
+    ``residual``: largest distance of a peak from the line over the peak [-]. Raises :class:`CaseError` for fewer than
+    two confining stresses.
     """
     if len(set(confining)) < 2:
         raise CaseError(f"stresses = {list(confining)}, allowed: at least two different confining stresses")
     slope, offset = np.polyfit(confining, peak, 1)
     line = slope * np.asarray(confining) + offset
     angle = 2 * (math.atan(math.sqrt(max(slope, 0.0))) - math.pi / 4)
-    return {"frictionAngle": math.degrees(angle), "cohesion": float(offset / (2 * math.sqrt(slope))) if slope > 0 else math.nan,
-            "residual": float(np.max(np.abs(line - peak) / np.asarray(peak)))}
+    return {
+        "frictionAngle": math.degrees(angle),
+        "cohesion": float(offset / (2 * math.sqrt(slope))) if slope > 0 else math.nan,
+        "residual": float(np.max(np.abs(line - peak) / np.asarray(peak))),
+    }
 
 
-def biaxial(sample, stresses=(20e3, 50e3, 100e3), strain=0.08, bondStrength=0.0, inertialNumber=INERTIAL_NUMBER, packing=None, run=None):
+def biaxial(
+    sample,
+    stresses=(20e3, 50e3, 100e3),
+    strain=0.08,
+    bondStrength=0.0,
+    inertialNumber=INERTIAL_NUMBER,
+    packing=None,
+    run=None,
+):
     """Biaxial tests at several confining ``stresses`` [Pa]; a dict.
 
-    ``tests``: of each stress the dict of :func:`biaxialTest`; ``frictionAngle`` [degrees] and ``cohesion`` [Pa] from the peaks;
-    ``youngModulus`` [Pa] and ``poissonRatio``, means over the tests.
+    ``tests``: of each stress the dict of :func:`biaxialTest`; ``frictionAngle`` [degrees] and ``cohesion`` [Pa] from
+    the peaks; ``youngModulus`` [Pa] and ``poissonRatio``, means over the tests.
     """
     run = run or LabRun("biaxial", {})
     if len(set(stresses)) < 2:
         raise CaseError(f"stresses = {list(stresses)}, allowed: at least two different confining stresses")
     bonds = f"bonds {_exact(bondStrength)} Pa" if bondStrength > 0 else "no bonds"
-    tests = [run.result(f"{_label(sample)}, {bonds}, confined at {_exact(stress)} Pa",
-                        lambda: biaxialTest(sample, stress, strain, bondStrength, inertialNumber, packing, run))
-             for stress in sorted(stresses)]
+    tests = [
+        run.result(
+            f"{_label(sample)}, {bonds}, confined at {_exact(stress)} Pa",
+            lambda: biaxialTest(sample, stress, strain, bondStrength, inertialNumber, packing, run),
+        )
+        for stress in sorted(stresses)
+    ]
     strength = mohrCoulomb([test["stress"] for test in tests], [test["peak"] for test in tests])
-    return {"tests": tests, **strength, "youngModulus": float(np.mean([test["youngModulus"] for test in tests])),
-            "poissonRatio": float(np.mean([test["poissonRatio"] for test in tests]))}
+    return {
+        "tests": tests,
+        **strength,
+        "youngModulus": float(np.mean([test["youngModulus"] for test in tests])),
+        "poissonRatio": float(np.mean([test["poissonRatio"] for test in tests])),
+    }
 
 
 def _label(sample):
     """What tells samples of one run apart."""
-    return (f"r_min {_exact(sample.rMin)} m, k_n {_exact(sample.normalStiffness)} N/m, "
-            f"k_s {_exact(sample.shearStiffness)} N/m, mu {_exact(sample.friction)}, {sample.grainCount} grains, "
-            f"seed {sample.seed}")
+    return (
+        f"r_min {_exact(sample.rMin)} m, k_n {_exact(sample.normalStiffness)} N/m, "
+        f"k_s {_exact(sample.shearStiffness)} N/m, mu {_exact(sample.friction)}, {sample.grainCount} grains, "
+        f"seed {sample.seed}"
+    )
 
 
 def _exact(value):

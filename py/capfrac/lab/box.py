@@ -1,8 +1,9 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The servo-controlled box: a sample between four walls that are pressed, driven or held.
 
 Stresses and strains are positive in compression; strains are engineering strains from the lengths at
-:meth:`Box.setReference`. Stresses are effective stresses of the dry (or drained) sample, wall force over wall area, thickness
-1 m. Modes (which wall does what) are named as in a geotechnical laboratory: see ``MODES``.
+:meth:`Box.setReference`. Stresses are effective stresses of the dry (or drained) sample, wall force over wall area,
+thickness 1 m. Modes (which wall does what) are named as in a geotechnical laboratory: see ``MODES``.
 
     box = Box(sample)
     box.confine(10e3, 10e3)                 # sigma_V, sigma_H [Pa]; within 0.5 % before it goes on
@@ -18,9 +19,9 @@ import math
 
 import numpy as np
 
-from capfrac import sediment
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
+from capfrac.scene import sediment
 from capfrac.values import asFloat, isPositive, shown
 
 #: What the walls do in each mode; the bottom stays in all of them.
@@ -32,14 +33,26 @@ MODES = {
     "k0": "driven by stress: the top wall bears it, side walls are fixed (no lateral strain)",
 }
 STRAIN_DRIVEN = ("uniaxial", "biaxial", "meanStress")
-#: Inertial number I = strain rate * d * sqrt(rho / sigma) of a test [-]. Below 1e-3 granular matter counts as quasi-static
-#: (GDR MiDi, Eur. Phys. J. E 14 (2004) 341).
+#: Inertial number I = strain rate * d * sqrt(rho / sigma) of a test [-]. Below 1e-3 granular matter counts as
+#: quasi-static (GDR MiDi, Eur. Phys. J. E 14 (2004) 341).
 INERTIAL_NUMBER = 5e-4
 #: Wall stresses are this near their targets (relative) before a test goes on.
 SERVO_TOLERANCE = 0.005
 #: Columns of a test's table.
-COLUMNS = ("strain [-]", "lateralStrain [-]", "stressV [Pa]", "stressH [Pa]", "voidRatio [-]", "trueVoidRatio [-]", "unbalanced [-]",
-           "inertialNumber [-]", "servoError [-]", "brokenBonds", "iteration", "branch")
+COLUMNS = (
+    "strain [-]",
+    "lateralStrain [-]",
+    "stressV [Pa]",
+    "stressH [Pa]",
+    "voidRatio [-]",
+    "trueVoidRatio [-]",
+    "unbalanced [-]",
+    "inertialNumber [-]",
+    "servoError [-]",
+    "brokenBonds",
+    "iteration",
+    "branch",
+)
 
 
 class Box:
@@ -47,8 +60,9 @@ class Box:
 
     def __init__(self, sample, run=None, inertialNumber=INERTIAL_NUMBER):
         if not (isPositive(inertialNumber) and inertialNumber <= 1e-2):
-            raise CaseError(f"inertialNumber = {shown(inertialNumber)}, allowed: 0 < I <= 0.01 (quasi-static: up to "
-                            "1e-3)")
+            raise CaseError(
+                f"inertialNumber = {shown(inertialNumber)}, allowed: 0 < I <= 0.01 (quasi-static: up to 1e-3)"
+            )
         self.sample, self.run, self.inertialNumber = sample, run or LabRun("box", {}), inertialNumber
 
     @property
@@ -78,7 +92,10 @@ class Box:
         """Strains count from here; rows begin anew."""
         loaded = _loadBearing()
         if loaded < 3:
-            raise SampleError(f"the sample bears no load: {loaded} of {len(self._radii())} grains have two contacts or more (a sample of rattlers only)")
+            raise SampleError(
+                f"the sample bears no load: {loaded} of {len(self._radii())} grains have two contacts or more (a sample"
+                " of rattlers only)"
+            )
         width, height = self.lengths()
         self.run.data["reference"] = {"width": width, "height": height, "bonds": _countBonds()}
         self.run.data.pop("rows", None)
@@ -87,7 +104,10 @@ class Box:
         """Say what the walls do: one of ``MODES``, with the stress that it keeps constant [Pa]."""
         if name not in MODES:
             raise CaseError(f"mode = {name!r}, allowed: {', '.join(MODES)}")
-        for key, value in (("stressH", stressH if name == "biaxial" else 1), ("meanStress", meanStress if name == "meanStress" else 1)):
+        for key, value in (
+            ("stressH", stressH if name == "biaxial" else 1),
+            ("meanStress", meanStress if name == "meanStress" else 1),
+        ):
             if not isPositive(value):
                 raise CaseError(f"{key} = {shown(value)} Pa with mode '{name}', allowed: > 0")
         servo = sediment.engine("servo")
@@ -129,7 +149,8 @@ class Box:
     def stressTo(self, targets, unbalanced=1e-3, maxSteps=500_000, branch="virgin"):
         """Bring the box to each of the stresses ``targets`` [Pa], > 0; a row for each, with the grains at rest.
 
-        For the modes driven by stress. Raises :class:`SampleError` when the walls do not come within ``SERVO_TOLERANCE``.
+        For the modes driven by stress. Raises :class:`SampleError` when the walls do not come within
+        ``SERVO_TOLERANCE``.
         """
         from yade import utils
 
@@ -141,8 +162,17 @@ class Box:
         while self.run.data.setdefault("nTargets", 0) < len(targets):
             servo = sediment.engine("servo")
             servo.stressX = servo.stressY = targets[self.run.data["nTargets"]]
-            sediment.runUntil(lambda: servo.error < SERVO_TOLERANCE and utils.unbalancedForce() < unbalanced, maxSteps, 200,
-                              lambda: f"the walls did not come to {servo.stressY:g} Pa within {maxSteps} steps: stresses {list(servo.stress)} Pa", None, "compressing")
+            sediment.runUntil(
+                lambda: servo.error < SERVO_TOLERANCE and utils.unbalancedForce() < unbalanced,
+                maxSteps,
+                200,
+                lambda: (
+                    f"the walls did not come to {servo.stressY:g} Pa within {maxSteps} steps: stresses"
+                    f" {list(servo.stress)} Pa"
+                ),
+                None,
+                "compressing",
+            )
             self.record(branch)
             self.run.data["nTargets"] += 1
             self.run.tick()
@@ -160,8 +190,10 @@ class Box:
         least = max(4 * 2 * max(self._radii()), 0.5 * self.solidArea() / width)
         most = 1 - least / reference["height"]
         if asFloat(strain) is None or strain > most:
-            raise CaseError(f"strain = {shown(strain)}, allowed: up to {most:.3g} (a box of {reference['height']:.4g} "
-                            "m then holds no more than overlapping grains)")
+            raise CaseError(
+                f"strain = {shown(strain)}, allowed: up to {most:.3g} (a box of {reference['height']:.4g} "
+                "m then holds no more than overlapping grains)"
+            )
         if strain < -0.5:
             raise CaseError(f"strain = {strain}, allowed: >= -0.5")
 
@@ -175,21 +207,36 @@ class Box:
 
         servo = sediment.engine("servo")
         height = self.run.data["reference"]["height"]
-        mean = max(0.5 * (servo.stress[3] + servo.stress[0]), self.run.data.setdefault("leastStress", 0.5 * (servo.stress[3] + servo.stress[0])))
+        mean = max(
+            0.5 * (servo.stress[3] + servo.stress[0]),
+            self.run.data.setdefault("leastStress", 0.5 * (servo.stress[3] + servo.stress[0])),
+        )
         rate = self.inertialNumber / (2 * np.mean(self._radii())) * math.sqrt(mean / self.sample.density)
         steps = max(1, math.ceil(strain / (rate * O.dt)))
         servo.driveVelocity = sign * strain * height / (steps * O.dt)
         sediment.advance(steps)
         if not all(math.isfinite(s) for s in servo.stress):
-            raise SampleError(f"control of the walls was lost at iteration {O.iter}: stresses {list(servo.stress)} Pa; try a smaller inertialNumber")
+            raise SampleError(
+                f"control of the walls was lost at iteration {O.iter}: stresses {list(servo.stress)} Pa; try a smaller"
+                " inertialNumber"
+            )
 
     def _settleWalls(self, maxSteps=100_000):
         """Halt until the servo-controlled walls are at their stresses; returns the speed there was before [m/s]."""
         servo = sediment.engine("servo")
         speed, servo.driveVelocity = servo.driveVelocity, 0.0
         if self.run.data["mode"] != "uniaxial":
-            sediment.runUntil(lambda: servo.error < SERVO_TOLERANCE, maxSteps, 20,
-                              f"control of the walls was lost: not within {SERVO_TOLERANCE:.1%} of their stresses after {maxSteps} steps", None, "shearing")
+            sediment.runUntil(
+                lambda: servo.error < SERVO_TOLERANCE,
+                maxSteps,
+                20,
+                (
+                    f"control of the walls was lost: not within {SERVO_TOLERANCE:.1%} of their stresses after"
+                    f" {maxSteps} steps"
+                ),
+                None,
+                "shearing",
+            )
         return speed
 
     def record(self, branch, speed=0.0):
@@ -202,9 +249,20 @@ class Box:
         rate = abs(speed) / reference["height"]
         mean = max(0.5 * (stressV + stressH), 1e-300)
         solid = self.solidArea()
-        values = (1 - height / reference["height"], 1 - width / reference["width"], stressV, stressH, width * height / solid - 1, trueVoidRatio(width * height),
-                  utils.unbalancedForce(), rate * 2 * np.mean(self._radii()) * math.sqrt(self.sample.density / mean), self._servoError(),
-                  reference["bonds"] - _countBonds(), O.iter, branch)
+        values = (
+            1 - height / reference["height"],
+            1 - width / reference["width"],
+            stressV,
+            stressH,
+            width * height / solid - 1,
+            trueVoidRatio(width * height),
+            utils.unbalancedForce(),
+            rate * 2 * np.mean(self._radii()) * math.sqrt(self.sample.density / mean),
+            self._servoError(),
+            reference["bonds"] - _countBonds(),
+            O.iter,
+            branch,
+        )
         for name, value in zip(COLUMNS, values):
             self.rows[name].append(float(value) if isinstance(value, np.floating) else value)
         self.run.report(f"{branch}: strain {values[0]:.2%}, sigma_V = {stressV:.4g} Pa, sigma_H = {stressH:.4g} Pa")
@@ -217,12 +275,20 @@ class Box:
     def quasiStatic(self):
         """The largest unbalanced force, inertial number and servo error of the rows: a dict."""
         rows = self.rows
-        return {name: float(np.max(rows[column])) if rows[column] else math.nan
-                for name, column in (("unbalanced", "unbalanced [-]"), ("inertialNumber", "inertialNumber [-]"), ("servoError", "servoError [-]"))}
+        return {
+            name: float(np.max(rows[column])) if rows[column] else math.nan
+            for name, column in (
+                ("unbalanced", "unbalanced [-]"),
+                ("inertialNumber", "inertialNumber [-]"),
+                ("servoError", "servoError [-]"),
+            )
+        }
 
 
 def trueVoidRatio(boxArea):
-    """Void over solid of the current scene with every overlap counted once [-]; NaN where the network cannot be built."""
+    """Void over solid of the current scene with every overlap counted once [-]; NaN where the network cannot be
+    built.
+    """
     from yade.wrapper import PoreNetworkEngine
 
     try:

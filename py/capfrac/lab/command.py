@@ -1,15 +1,18 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """``capfrac lab TEST``: the laboratory tests from the command line, each with a run folder, progress and pictures."""
 
 import sys
 from pathlib import Path
 
-from capfrac import environment, keys, namedfiles, tomlfiles
+from capfrac import environment
+from capfrac.case import schema
 from capfrac.errors import CaseError
+from capfrac.io import namedfiles, tomlfiles
 from capfrac.lab import parameters, reports
 from capfrac.lab.run import LabRun
-from capfrac.lab.water import reports as waterReports
-from capfrac.packing import BOULDER
-from capfrac.runfolder import readSummary
+from capfrac.run.folder import readSummary
+from capfrac.scene.packing import BOULDER
+from capfrac.verification import reports as waterReports
 
 _REPORTS = {**reports.REPORTS, **waterReports.REPORTS}
 #: What each test is, in a line.
@@ -68,7 +71,7 @@ def runTest(test, values, folder=None, restart=False, report=lambda text: None, 
 
 
 def _defaults(test):
-    return keys.resolve({}, parameters.TESTS[test], "defaults")
+    return schema.resolve({}, parameters.TESTS[test], "defaults")
 
 
 # --- the command ---------------------------------------------------------------------------------
@@ -76,14 +79,32 @@ def _defaults(test):
 
 def addParser(commands):
     """Put ``lab`` and its tests into the command's parser."""
-    lab = commands.add_parser("lab", help="run a laboratory test on a sediment", description="Make a sediment and measure it. Interrupted with Ctrl-C, the same "
-                              "command takes the test up where it stopped.")
+    lab = commands.add_parser(
+        "lab",
+        help="run a laboratory test on a sediment",
+        description=(
+            "Make a sediment and measure it. Interrupted with Ctrl-C, the same "
+            "command takes the test up where it stopped."
+        ),
+    )
     tests = lab.add_subparsers(dest="test", required=True, metavar="TEST")
     for name, title in TITLES.items():
-        test = tests.add_parser(name, help=title, description=title[0].upper() + title[1:] + ".", epilog="Parameters: `capfrac lab " + name + " --keys`.")
+        test = tests.add_parser(
+            name,
+            help=title,
+            description=title[0].upper() + title[1:] + ".",
+            epilog="Parameters: `capfrac lab " + name + " --keys`.",
+        )
         test.add_argument("file", nargs="?", help="parameters (TOML): sections [grains] and [" + name + "]")
         test.add_argument("-o", "--output", help=f"run folder (default: runs/lab-{name})")
-        test.add_argument("-s", "--set", action="append", default=[], metavar="SECTION.KEY=VALUE", help="replace a parameter, e.g. -s grains.count=500")
+        test.add_argument(
+            "-s",
+            "--set",
+            action="append",
+            default=[],
+            metavar="SECTION.KEY=VALUE",
+            help="replace a parameter, e.g. -s grains.count=500",
+        )
         test.add_argument("--keys", action="store_true", help="list every parameter with its unit, default and meaning")
         environment.addOption(test, "threads of the test")
         test.add_argument("--restart", action="store_true", help="discard an earlier run in the folder")
@@ -94,7 +115,7 @@ def main(arguments):
     """Run the command with parsed arguments; returns the exit status."""
     test = arguments.test
     if arguments.keys:
-        print(keys.describe(parameters.TESTS[test]))
+        print(schema.describe(parameters.TESTS[test]))
         return 0
     raw, base = {}, "."
     if arguments.file:
@@ -111,8 +132,9 @@ def main(arguments):
     values, warnings = parameters.resolveTelling(test, raw, arguments.file or "arguments", problems)
     folder = arguments.output or f"runs/lab-{test}"
     try:
-        results = runTest(test, values, folder, arguments.restart, _reporter(arguments.quiet), base, arguments.threads,
-                          warnings)
+        results = runTest(
+            test, values, folder, arguments.restart, _reporter(arguments.quiet), base, arguments.threads, warnings
+        )
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command takes the test up again from {folder}", file=sys.stderr)
         return 130

@@ -1,10 +1,13 @@
-"""Dry uniaxial compaction with unload-reload loops, and the stiffness that gives a requested compressibility (Figure 10).
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Dry uniaxial compaction with unload-reload loops, and the stiffness that gives a requested compressibility (Figure
+10).
 
 The sample is settled, brought to an isotropic preload, and compressed between fixed side walls. Void ratios follow from
-the height of the sample as in a laboratory, e = (1 + e_0)(1 - strain) - 1: overlap of the model's grains stands for their
-deformation and counts as lost void. e_0 is the sample's own, about 0.2 for disks, or that of the sediment that the model
-stands for: the strain is what both have in common. The compression index C_c = -de/dlog10(sigma_V) is the slope of a
-least-squares line through the virgin curve between two stresses, C_r that of the chord of an unloading branch.
+the height of the sample as in a laboratory, e = (1 + e_0)(1 - strain) - 1: overlap of the model's grains stands for
+their deformation and counts as lost void. e_0 is the sample's own, about 0.2 for disks, or that of the sediment that
+the model stands for: the strain is what both have in common. The compression index C_c = -de/dlog10(sigma_V) is the
+slope of a least-squares line through the virgin curve between two stresses, C_r that of the chord of an unloading
+branch.
 """
 
 import math
@@ -12,11 +15,11 @@ from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
-from capfrac import sediment
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.run import LabRun
-from capfrac.runfolder import exactText
+from capfrac.run.folder import exactText
+from capfrac.scene import sediment
 from capfrac.values import isPositive, shown
 
 #: Strain at which a compaction towards a stress gives up [-].
@@ -27,7 +30,9 @@ LARGEST_SEARCH = 8
 
 @dataclass
 class Compaction:
-    """A finished compaction: the ``table`` (columns of :data:`box.COLUMNS`, and ``voidRatioUsed [-]``) and what was read from it."""
+    """A finished compaction: the ``table`` (columns of :data:`box.COLUMNS`, and ``voidRatioUsed [-]``) and what was
+    read from it.
+    """
 
     table: dict
     voidRatio: float  #: e_0 that strains were turned into void ratios with [-]
@@ -42,13 +47,25 @@ class Compaction:
         return asdict(self)
 
 
-def compact(sample, preload=10e3, strain=0.25, loops=(), unloadTo=0.1, voidRatio=None, fitFrom=None, fitTo=None, inertialNumber=INERTIAL_NUMBER,
-            untilStress=None, run=None):
+def compact(
+    sample,
+    preload=10e3,
+    strain=0.25,
+    loops=(),
+    unloadTo=0.1,
+    voidRatio=None,
+    fitFrom=None,
+    fitTo=None,
+    inertialNumber=INERTIAL_NUMBER,
+    untilStress=None,
+    run=None,
+):
     """Compress a new sample uniaxially; returns a :class:`Compaction`.
 
-    ``preload`` [Pa]; ``strain`` at the end, or ``untilStress`` [Pa], whichever is first; ``loops``: strains at which to unload
-    to the share ``unloadTo`` of the stress and reload. The rest as in the module's text. Raises :class:`CaseError` for
-    impossible values, :class:`SampleError` when the sample cannot be brought to the preload or control is lost.
+    ``preload`` [Pa]; ``strain`` at the end, or ``untilStress`` [Pa], whichever is first; ``loops``: strains at which to
+    unload to the share ``unloadTo`` of the stress and reload. The rest as in the module's text. Raises
+    :class:`CaseError` for impossible values, :class:`SampleError` when the sample cannot be brought to the preload or
+    control is lost.
     """
     run = run or LabRun("compact", {})
     for name, value in (("preload", preload), ("strain", strain), ("unloadTo", unloadTo)):
@@ -64,13 +81,20 @@ def compact(sample, preload=10e3, strain=0.25, loops=(), unloadTo=0.1, voidRatio
         if at != strain:
             run.stage(f"remember {number}", lambda: run.data.update(turn=box.rows["stressV [Pa]"][-1]))
             turn = run.data["turn"]
-            run.stage(f"unload {number}", lambda: box.strainTo(-0.1, branch=f"unload {number + 1}", until=lambda row: row["stressV [Pa]"] <= unloadTo * turn))
+            run.stage(
+                f"unload {number}",
+                lambda: box.strainTo(
+                    -0.1, branch=f"unload {number + 1}", until=lambda row: row["stressV [Pa]"] <= unloadTo * turn
+                ),
+            )
             run.stage(f"reload {number}", lambda: box.strainTo(at, branch=f"reload {number + 1}"))
     return evaluate(box.rows, voidRatio, fitFrom, fitTo, box.quasiStatic())
 
 
 def prepareSample(sample, stress, run, packing=None):
-    """A new sample, or a ``packing`` (x, y, r) [m], at rest under the isotropic ``stress`` [Pa], with the progress on ``run``."""
+    """A new sample, or a ``packing`` (x, y, r) [m], at rest under the isotropic ``stress`` [Pa], with the progress on
+    ``run``.
+    """
 
     def progress(label, unbalanced):
         run.report(f"{label}: unbalanced force {unbalanced:.2g}")
@@ -100,14 +124,23 @@ def evaluate(rows, voidRatio=None, fitFrom=None, fitTo=None, quasiStatic=None):
     fitFrom = fitTo / 10 if fitFrom is None else fitFrom
     if not fitFrom < fitTo:
         raise CaseError(f"fitFrom = {fitFrom} Pa, allowed: < fitTo = {fitTo} Pa")
-    return Compaction(table, float(e0), (1 + e0) * compressionSlope(strain[virgin], stress[virgin], fitFrom, fitTo), float(fitFrom), float(fitTo),
-                      measureLoops(table, e0), quasiStatic or {})
+    return Compaction(
+        table,
+        float(e0),
+        (1 + e0) * compressionSlope(strain[virgin], stress[virgin], fitFrom, fitTo),
+        float(fitFrom),
+        float(fitTo),
+        measureLoops(table, e0),
+        quasiStatic or {},
+    )
 
 
 def compressionSlope(strain, stress, fitFrom, fitTo):
-    """Strain per tenfold stress [-]: least squares over ``fitFrom`` to ``fitTo`` [Pa]; NaN where the curve does not reach both.
+    """Strain per tenfold stress [-]: least squares over ``fitFrom`` to ``fitTo`` [Pa]; NaN where the curve does not
+    reach both.
 
-    The curve is read at equal steps of log stress, so that every part of the range counts alike however dense the rows are.
+    The curve is read at equal steps of log stress, so that every part of the range counts alike however dense the rows
+    are.
     """
     top = np.maximum.accumulate(stress)
     if top[-1] < 0.999 * fitTo or stress[0] > 1.001 * fitFrom:
@@ -120,9 +153,9 @@ def compressionSlope(strain, stress, fitFrom, fitTo):
 def measureLoops(table, e0):
     """The unload-reload loops of a table: a list of dicts.
 
-    ``strain``, ``stress`` [Pa] where unloading began; ``Cr``, fall of the void ratio per tenfold stress along the chord of the
-    unloading branch; ``recovered``: strain that came back over the strain until then [-]; ``irreversibleStrain`` [-], what did
-    not come back; ``hysteresis``: area of the loop over the work of its reloading [-].
+    ``strain``, ``stress`` [Pa] where unloading began; ``Cr``, fall of the void ratio per tenfold stress along the chord
+    of the unloading branch; ``recovered``: strain that came back over the strain until then [-]; ``irreversibleStrain``
+    [-], what did not come back; ``hysteresis``: area of the loop over the work of its reloading [-].
     """
     branch = np.array(table["branch"])
     strain, stress = np.array(table["strain [-]"]), np.array(table["stressV [Pa]"])
@@ -133,9 +166,20 @@ def measureLoops(table, e0):
         before = np.flatnonzero(down)[0] - 1
         s1, p1 = strain[before], stress[before]
         s2, p2 = strain[down][-1], stress[down][-1]
-        work = [_work(np.concatenate([[a], strain[of]]), np.concatenate([[b], stress[of]])) for of, a, b in ((down, s1, p1), (up, s2, p2))]
-        loops.append({"strain": float(s1), "stress": float(p1), "Cr": float((1 + e0) * (s1 - s2) / math.log10(p1 / p2)), "recovered": float((s1 - s2) / s1),
-                      "irreversibleStrain": float(s2), "hysteresis": float((work[1] + work[0]) / work[1])})
+        work = [
+            _work(np.concatenate([[a], strain[of]]), np.concatenate([[b], stress[of]]))
+            for of, a, b in ((down, s1, p1), (up, s2, p2))
+        ]
+        loops.append(
+            {
+                "strain": float(s1),
+                "stress": float(p1),
+                "Cr": float((1 + e0) * (s1 - s2) / math.log10(p1 / p2)),
+                "recovered": float((s1 - s2) / s1),
+                "irreversibleStrain": float(s2),
+                "hysteresis": float((work[1] + work[0]) / work[1]),
+            }
+        )
         number += 1
     return loops
 
@@ -147,14 +191,24 @@ def _work(strain, stress):
 # --- the one free parameter ----------------------------------------------------------------------
 
 
-def findStiffness(sample, compressionIndex, fitFrom=100e3, fitTo=1e6, voidRatio=None, preload=10e3, tolerance=0.01, inertialNumber=INERTIAL_NUMBER, run=None):
+def findStiffness(
+    sample,
+    compressionIndex,
+    fitFrom=100e3,
+    fitTo=1e6,
+    voidRatio=None,
+    preload=10e3,
+    tolerance=0.01,
+    inertialNumber=INERTIAL_NUMBER,
+    run=None,
+):
     """The k_n [N/m] (k_s = k_n stays in its ratio) whose compaction has the requested C_c; a dict.
 
     k_n is the one free parameter, as in the paper. A pack of disks with linear contacts looks the same at the same
-    stress over k_n, so one curve, its stresses scaled, tells where to look; a compaction at the stiffness found confirms or
-    corrects it, until C_c is within ``tolerance`` (relative). The dict holds ``normalStiffness``, ``Cc``, ``error`` (relative),
-    ``tried`` (all pairs) and ``compaction``. Raises :class:`SampleError` when the search does not end, :class:`CaseError` for
-    a C_c that no stiffness gives.
+    stress over k_n, so one curve, its stresses scaled, tells where to look; a compaction at the stiffness found
+    confirms or corrects it, until C_c is within ``tolerance`` (relative). The dict holds ``normalStiffness``, ``Cc``,
+    ``error`` (relative), ``tried`` (all pairs) and ``compaction``. Raises :class:`SampleError` when the search does not
+    end, :class:`CaseError` for a C_c that no stiffness gives.
     """
     run = run or LabRun("fit", {})
     if not isPositive(compressionIndex):
@@ -163,12 +217,32 @@ def findStiffness(sample, compressionIndex, fitFrom=100e3, fitTo=1e6, voidRatio=
     for _ in range(LARGEST_SEARCH):
         other = sediment.changed(sample, normalStiffness=stiffness, shearStiffness=ratio * stiffness)
         # To a fixed strain: the curve serves for other stiffnesses, too.
-        found = Compaction(**run.result(f"k_n {exactText(stiffness, '.6g')} N/m", lambda: compact(
-            other, preload, LARGEST_STRAIN, (), voidRatio=voidRatio, fitFrom=fitFrom, fitTo=fitTo, inertialNumber=inertialNumber,
-            untilStress=fitTo if tried else None, run=run).asDict()))
+        found = Compaction(
+            **run.result(
+                f"k_n {exactText(stiffness, '.6g')} N/m",
+                lambda: compact(
+                    other,
+                    preload,
+                    LARGEST_STRAIN,
+                    (),
+                    voidRatio=voidRatio,
+                    fitFrom=fitFrom,
+                    fitTo=fitTo,
+                    inertialNumber=inertialNumber,
+                    untilStress=fitTo if tried else None,
+                    run=run,
+                ).asDict(),
+            )
+        )
         tried.append((stiffness, found.Cc))
         if math.isfinite(found.Cc) and abs(found.Cc / compressionIndex - 1) <= tolerance:
-            return {"normalStiffness": stiffness, "Cc": found.Cc, "error": found.Cc / compressionIndex - 1, "tried": tried, "compaction": found.asDict()}
+            return {
+                "normalStiffness": stiffness,
+                "Cc": found.Cc,
+                "error": found.Cc / compressionIndex - 1,
+                "tried": tried,
+                "compaction": found.asDict(),
+            }
         stiffness = _nextStiffness(found, tried, compressionIndex, stiffness)
     raise SampleError(f"no k_n was found for C_c = {compressionIndex:g} within {LARGEST_SEARCH} compactions: {tried}")
 
@@ -181,13 +255,28 @@ def _nextStiffness(found, tried, wanted, stiffness):
         return k2 * math.exp(math.log(wanted / c2) / slope)
     strain, stress = np.array(found.table["strain [-]"]), np.array(found.table["stressV [Pa]"])
     scales = np.geomspace(1e-4, 1e4, 2001)
-    slopes = np.array([(1 + found.voidRatio) * compressionSlope(strain, stress * scale, found.fitFrom, found.fitTo) for scale in scales])
+    slopes = np.array(
+        [
+            (1 + found.voidRatio) * compressionSlope(strain, stress * scale, found.fitFrom, found.fitTo)
+            for scale in scales
+        ]
+    )
     good = np.isfinite(slopes)
     if not good.any() or not (slopes[good].min() <= wanted <= slopes[good].max()):
         within = f"{slopes[good].min():.3g} to {slopes[good].max():.3g}" if good.any() else "none"
-        raise CaseError(f"compressionIndex = {wanted:g} cannot be met between {found.fitFrom:g} and {found.fitTo:g} Pa with strains up to {LARGEST_STRAIN}: "
-                        f"within reach: {within} (at the void ratio {found.voidRatio:.3g})")
+        raise CaseError(
+            f"compressionIndex = {wanted:g} cannot be met between {found.fitFrom:g} and {found.fitTo:g} Pa with strains"
+            f" up to {LARGEST_STRAIN}: within reach: {within} (at the void ratio {found.voidRatio:.3g})"
+        )
     # C_c falls with the stiffness where grains deform little; of several crossings the stiffest is that one.
-    crossing = [k for k in range(len(scales) - 1) if good[k] and good[k + 1] and (slopes[k] - wanted) * (slopes[k + 1] - wanted) <= 0][-1]
-    part = (slopes[crossing] - wanted) / (slopes[crossing] - slopes[crossing + 1]) if slopes[crossing] != slopes[crossing + 1] else 0
+    crossing = [
+        k
+        for k in range(len(scales) - 1)
+        if good[k] and good[k + 1] and (slopes[k] - wanted) * (slopes[k + 1] - wanted) <= 0
+    ][-1]
+    part = (
+        (slopes[crossing] - wanted) / (slopes[crossing] - slopes[crossing + 1])
+        if slopes[crossing] != slopes[crossing + 1]
+        else 0
+    )
     return stiffness * float(scales[crossing] * (scales[crossing + 1] / scales[crossing]) ** part)

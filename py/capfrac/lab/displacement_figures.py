@@ -1,14 +1,16 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of viscous displacement."""
 
 import numpy as np
 from matplotlib.collections import EllipseCollection, PolyCollection
 
-from capfrac.figures import COLOURS, newFigure, saveFigure
-from capfrac.snapshot import GAS
+from capfrac.plot.figures import COLOURS, newFigure, saveFigure
+from capfrac.results.snapshot import GAS
 
 
 def drawDisplacement(found, snapshots, path):
-    """Draw what :func:`capfrac.lab.displacement.displacement` found to ``path`` (.png, .pdf or .svg): the sample at breakthrough in each corner.
+    """Draw what :func:`capfrac.lab.displacement.displacement` found to ``path`` (.png, .pdf or .svg): the sample at
+    breakthrough in each corner.
 
     ``snapshots``: name of the corner -> :class:`~capfrac.snapshot.Snapshot`.
     """
@@ -16,8 +18,14 @@ def drawDisplacement(found, snapshots, path):
         for k, (name, one) in enumerate(found.items()):
             axes = figure.add_axes([0.008 + 0.333 * k, 0.02, 0.318, 0.74])
             _drawGas(axes, snapshots[name])
-            axes.set_title(f"{'abcdef'[k]})  {name}\nCa = {_power(one['capillaryNumber'])},  M = {one['viscosityRatio']:g}\n"
-                           f"S = {one['saturation']:.2f},  roughness = {one['roughness']:.2f}", fontsize=8, loc="left")
+            axes.set_title(
+                (
+                    f"{'abcdef'[k]})  {name}\nCa = {_power(one['capillaryNumber'])},  M = {one['viscosityRatio']:g}\n"
+                    f"S = {one['saturation']:.2f},  roughness = {one['roughness']:.2f}"
+                ),
+                fontsize=8,
+                loc="left",
+            )
         saveFigure(figure, path)
 
 
@@ -29,9 +37,27 @@ def _power(value):
 
 def _drawGas(axes, s):
     corners = [s.polygonCorners[a:b] for a, b in zip(s.polygonOffsets, s.polygonOffsets[1:])]
-    axes.add_collection(PolyCollection([c for c, phase in zip(corners, s.cellPhase) if phase == GAS], facecolor=COLOURS["gas"], edgecolor=COLOURS["gas"], linewidth=0.3))
-    axes.add_collection(EllipseCollection(2 * s.r, 2 * s.r, np.zeros(len(s.r)), units="xy", offsets=np.column_stack([s.x, s.y]), offset_transform=axes.transData,
-                                          facecolor=COLOURS["grain"], edgecolor=COLOURS["outline"], linewidth=0.2))
+    axes.add_collection(
+        PolyCollection(
+            [c for c, phase in zip(corners, s.cellPhase) if phase == GAS],
+            facecolor=COLOURS["gas"],
+            edgecolor=COLOURS["gas"],
+            linewidth=0.3,
+        )
+    )
+    axes.add_collection(
+        EllipseCollection(
+            2 * s.r,
+            2 * s.r,
+            np.zeros(len(s.r)),
+            units="xy",
+            offsets=np.column_stack([s.x, s.y]),
+            offset_transform=axes.transData,
+            facecolor=COLOURS["grain"],
+            edgecolor=COLOURS["outline"],
+            linewidth=0.2,
+        )
+    )
     left, right, bottom, top = s.box
     axes.plot([left, right], [bottom, bottom], color=COLOURS["inlet"], linewidth=3, solid_capstyle="butt")
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal", xticks=[], yticks=[])

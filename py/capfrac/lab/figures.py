@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Pictures of laboratory tests: Figures 7 to 10 of Jain & Juanes (2008), Mohr circles, tables as curves.
 
 Each function draws the result of a test (see the modules beside this one) to a file (.png, .pdf or .svg).
@@ -7,12 +8,19 @@ import math
 
 import numpy as np
 
-from capfrac import figures
-from capfrac.figures import COLOURS, newFigure, quantity, saveFigure
 from capfrac.lab import hydrate_ridge
+from capfrac.plot import figures
+from capfrac.plot.figures import COLOURS, newFigure, quantity, saveFigure
 
 #: One colour for each curve of a picture, then over again.
-CYCLE = (COLOURS["dot"], COLOURS["compression"], COLOURS["tension"], COLOURS["broken"], COLOURS["gas"], COLOURS["outline"])
+CYCLE = (
+    COLOURS["dot"],
+    COLOURS["compression"],
+    COLOURS["tension"],
+    COLOURS["broken"],
+    COLOURS["gas"],
+    COLOURS["outline"],
+)
 BAND = "#e4e0d2"
 
 
@@ -43,12 +51,36 @@ def drawTimeStep(result, path):
     unit = quantity(10.0**power, "s").split()[1]
     with newFigure((5.4, 3.2)) as figure:
         axes = figure.add_axes([0.14, 0.16, 0.7, 0.76])
-        axes.plot(time / 10.0**power, np.array(table["timeStep [s]"]) / result["freeFall"], color=COLOURS["dot"], linewidth=1.4)
+        axes.plot(
+            time / 10.0**power,
+            np.array(table["timeStep [s]"]) / result["freeFall"],
+            color=COLOURS["dot"],
+            linewidth=1.4,
+        )
         axes.axvline(result["settlingBegins"] / 10.0**power, color="0.45", linewidth=0.9, linestyle=(0, (4, 3)))
-        axes.text(result["settlingBegins"] / 10.0**power, 1.02, " free fall $\\leftarrow$ | $\\rightarrow$ settling", ha="center", va="bottom", fontsize=8, color="0.35")
-        axes.set(xlabel=f"time [{unit}]", ylabel=f"time step / {quantity(result['freeFall'], 's')}", ylim=(0, 1.1), xlim=(0, time[-1] / 10.0**power))
+        axes.text(
+            result["settlingBegins"] / 10.0**power,
+            1.02,
+            " free fall $\\leftarrow$ | $\\rightarrow$ settling",
+            ha="center",
+            va="bottom",
+            fontsize=8,
+            color="0.35",
+        )
+        axes.set(
+            xlabel=f"time [{unit}]",
+            ylabel=f"time step / {quantity(result['freeFall'], 's')}",
+            ylim=(0, 1.1),
+            xlim=(0, time[-1] / 10.0**power),
+        )
         share = axes.twinx()
-        share.plot(time / 10.0**power, table["shareTouching [-]"], color=COLOURS["compression"], linewidth=1.1, linestyle=(0, (2, 1.5)))
+        share.plot(
+            time / 10.0**power,
+            table["shareTouching [-]"],
+            color=COLOURS["compression"],
+            linewidth=1.1,
+            linestyle=(0, (2, 1.5)),
+        )
         share.set(ylim=(0, 1.1))
         share.set_ylabel("share of grains with a contact", color=COLOURS["compression"])
         axes.yaxis.label.set_color(COLOURS["dot"])
@@ -61,8 +93,12 @@ def drawTimeStep(result, path):
 def drawScaling(result, path):
     """The time step against grain radius and stiffness with the fitted power laws (Figure 9)."""
     with newFigure((7.2, 3.2)) as figure:
-        panels = figure.subplots(1, 2, gridspec_kw={"left": 0.1, "right": 0.98, "bottom": 0.16, "top": 0.93, "wspace": 0.3})
-        for axes, name, label in zip(panels, ("radius", "stiffness"), ("smallest radius [m]", "normal stiffness $k_n$ [N/m]")):
+        panels = figure.subplots(
+            1, 2, gridspec_kw={"left": 0.1, "right": 0.98, "bottom": 0.16, "top": 0.93, "wspace": 0.3}
+        )
+        for axes, name, label in zip(
+            panels, ("radius", "stiffness"), ("smallest radius [m]", "normal stiffness $k_n$ [N/m]")
+        ):
             found = result[name]
             x, y = np.array(found["x"]), np.array(found["timeStep"])
             ends = np.array([x.min(), x.max()])
@@ -70,7 +106,14 @@ def drawScaling(result, path):
             axes.loglog(ends, line, color=COLOURS["compression"], linewidth=1.2, zorder=1)
             axes.loglog(x, y, linestyle="none", marker="o", markersize=4, color=COLOURS["dot"], zorder=2)
             axes.set(xlabel=label, ylabel="time step [s]")
-            axes.text(0.5, 0.93, f"exponent {found['exponent']:.4f} $\\pm$ {found['error']:.4f}", transform=axes.transAxes, ha="center", fontsize=9)
+            axes.text(
+                0.5,
+                0.93,
+                f"exponent {found['exponent']:.4f} $\\pm$ {found['error']:.4f}",
+                transform=axes.transAxes,
+                ha="center",
+                fontsize=9,
+            )
         tidy(figure)
         saveFigure(figure, path)
 
@@ -81,7 +124,11 @@ def drawCompaction(found, path, title=None):
     strain, stress, void = (np.array(table[name]) for name in ("strain [-]", "stressV [Pa]", "voidRatioUsed [-]"))
     power, unit = pressureUnit(stress.max())
     with newFigure((7.6, 3.3)) as figure:
-        curve, log = figure.subplots(1, 2, gridspec_kw={"left": 0.09, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.28})
+        curve, log = figure.subplots(
+            1,
+            2,
+            gridspec_kw={"left": 0.09, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.28},
+        )
         curve.plot(100 * strain, stress / 10.0**power, color=COLOURS["dot"], linewidth=1.2)
         curve.set(xlabel="vertical strain [%]", ylabel=f"vertical stress [{unit}]", xlim=(0, None), ylim=(0, None))
         log.semilogx(stress, void, color=COLOURS["dot"], linewidth=1.2)
@@ -90,9 +137,17 @@ def drawCompaction(found, path, title=None):
             at = np.array([found["fitFrom"], found["fitTo"]])
             virgin = np.array([branch == "virgin" for branch in table["branch"]])
             order = np.argsort(stress[virgin])
-            middle = np.interp(math.log10(math.sqrt(at[0] * at[1])), np.log10(stress[virgin][order]), void[virgin][order])
-            log.semilogx(at, middle - found["Cc"] * (np.log10(at) - np.log10(at).mean()), color=COLOURS["broken"], linewidth=1.2, linestyle=(0, (4, 2)),
-                         label=f"$C_c$ = {found['Cc']:.3f}")
+            middle = np.interp(
+                math.log10(math.sqrt(at[0] * at[1])), np.log10(stress[virgin][order]), void[virgin][order]
+            )
+            log.semilogx(
+                at,
+                middle - found["Cc"] * (np.log10(at) - np.log10(at).mean()),
+                color=COLOURS["broken"],
+                linewidth=1.2,
+                linestyle=(0, (4, 2)),
+                label=f"$C_c$ = {found['Cc']:.3f}",
+            )
         for number, loop in enumerate(found["loops"]):
             log.plot([], [], linestyle="none", label=f"$C_r$ = {loop['Cr']:.3f} at {loop['strain']:.0%}")
         log.legend(fontsize=7, frameon=False, loc="lower left", handlelength=1.6)
@@ -103,24 +158,63 @@ def drawCompaction(found, path, title=None):
 
 
 def drawHydrateRidge(result, path):
-    """The compactions at the fitted stiffnesses, and their local C_c and C_r against the reported ranges (Figure 10)."""
+    """The compactions at the fitted stiffnesses, and their local C_c and C_r against the reported ranges
+    (Figure 10).
+    """
     highest = max(max(found["table"]["stressV [Pa]"]) for found in result["compactions"].values())
     power, unit = pressureUnit(highest)
     with newFigure((9.6, 3.7)) as figure:
-        curve, slope, unloading = figure.subplots(1, 3, gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.3, "top": 0.95, "wspace": 0.3})
+        curve, slope, unloading = figure.subplots(
+            1, 3, gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.3, "top": 0.95, "wspace": 0.3}
+        )
         for colour, (name, found) in zip(CYCLE, result["compactions"].items()):
             label = f"$k_n$ = {result['stiffness'][name]:.3g} N/m ($C_c$ = {result['Cc'][name]:.3f})"
-            curve.plot(100 * np.array(found["table"]["strain [-]"]), np.array(found["table"]["stressV [Pa]"]) / 10.0**power, color=colour, linewidth=1.1, label=label)
+            curve.plot(
+                100 * np.array(found["table"]["strain [-]"]),
+                np.array(found["table"]["stressV [Pa]"]) / 10.0**power,
+                color=colour,
+                linewidth=1.1,
+                label=label,
+            )
             stress, index = hydrate_ridge.localIndex(found)
             slope.semilogx(stress, index, color=colour, linewidth=1.2)
-            unloading.semilogx([loop["stress"] for loop in found["loops"]], [loop["Cr"] for loop in found["loops"]], color=colour, linewidth=0.8, marker="o", markersize=4)
+            unloading.semilogx(
+                [loop["stress"] for loop in found["loops"]],
+                [loop["Cr"] for loop in found["loops"]],
+                color=colour,
+                linewidth=0.8,
+                marker="o",
+                markersize=4,
+            )
         if result["laboratory"]:
             lab = result["laboratory"]
-            curve.plot(100 * np.array(lab["strain"]), np.array(lab["stress"]) / 10.0**power, color="black", linestyle="none", marker="s", markersize=3, label="laboratory (yours)")
-        for axes, (low, high, average), name in ((slope, result["reported"]["Cc"], "C_c"), (unloading, result["reported"]["Cr"], "C_r")):
+            curve.plot(
+                100 * np.array(lab["strain"]),
+                np.array(lab["stress"]) / 10.0**power,
+                color="black",
+                linestyle="none",
+                marker="s",
+                markersize=3,
+                label="laboratory (yours)",
+            )
+        for axes, (low, high, average), name in (
+            (slope, result["reported"]["Cc"], "C_c"),
+            (unloading, result["reported"]["Cr"], "C_r"),
+        ):
             axes.axhspan(low, high, color=BAND, zorder=0, label=f"reported range, Site 1244: {low:g}-{high:g}")
-            axes.axhline(average, color=COLOURS["outline"], linewidth=1, linestyle=(0, (4, 2)), zorder=1, label=f"reported average: {average:g}")
-            axes.set(xlabel="vertical stress [Pa]", ylabel=f"{'local ' if name == 'C_c' else ''}${name}$ of the model [-]", ylim=(0, None))
+            axes.axhline(
+                average,
+                color=COLOURS["outline"],
+                linewidth=1,
+                linestyle=(0, (4, 2)),
+                zorder=1,
+                label=f"reported average: {average:g}",
+            )
+            axes.set(
+                xlabel="vertical stress [Pa]",
+                ylabel=f"{'local ' if name == 'C_c' else ''}${name}$ of the model [-]",
+                ylim=(0, None),
+            )
         curve.set(xlabel="vertical strain [%]", ylabel=f"vertical stress [{unit}]", xlim=(0, None), ylim=(0, None))
         for axes in (curve, slope, unloading):
             axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(-0.08, -0.16))
@@ -129,16 +223,28 @@ def drawHydrateRidge(result, path):
 
 
 def drawBiaxial(result, path, title=None):
-    """Deviator and volume against strain for each confining stress, and the Mohr circles at the peaks with their envelope."""
+    """Deviator and volume against strain for each confining stress, and the Mohr circles at the peaks with their
+    envelope.
+    """
     tests = result["tests"]
     power, unit = pressureUnit(max(test["peak"] for test in tests))
     with newFigure((9.6, 3.3)) as figure:
-        deviator, volume, mohr = figure.subplots(1, 3, gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.3})
+        deviator, volume, mohr = figure.subplots(
+            1,
+            3,
+            gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.3},
+        )
         for colour, test in zip(CYCLE, tests):
             table = test["table"]
             axial, lateral = np.array(table["strain [-]"]), np.array(table["lateralStrain [-]"])
             vertical, horizontal = np.array(table["stressV [Pa]"]), np.array(table["stressH [Pa]"])
-            deviator.plot(100 * axial, (vertical - horizontal) / 10.0**power, color=colour, linewidth=1.1, label=f"$\\sigma_H$ = {quantity(test['stress'], 'Pa')}")
+            deviator.plot(
+                100 * axial,
+                (vertical - horizontal) / 10.0**power,
+                color=colour,
+                linewidth=1.1,
+                label=f"$\\sigma_H$ = {quantity(test['stress'], 'Pa')}",
+            )
             volume.plot(100 * axial, 100 * (axial + lateral), color=colour, linewidth=1.1)
             _drawCircle(mohr, test["stress"] / 10.0**power, test["peak"] / 10.0**power, colour)
         deviator.set(xlabel="vertical strain [%]", ylabel=f"$\\sigma_V - \\sigma_H$ [{unit}]", xlim=(0, None))
@@ -153,7 +259,12 @@ def drawBiaxial(result, path, title=None):
 
 def _drawCircle(axes, low, high, colour):
     angle = np.linspace(0, math.pi, 181)
-    axes.plot(0.5 * (low + high) + 0.5 * (high - low) * np.cos(angle), 0.5 * (high - low) * np.sin(angle), color=colour, linewidth=1.1)
+    axes.plot(
+        0.5 * (low + high) + 0.5 * (high - low) * np.cos(angle),
+        0.5 * (high - low) * np.sin(angle),
+        color=colour,
+        linewidth=1.1,
+    )
 
 
 def _drawEnvelope(axes, result, highest, power, unit):
@@ -162,22 +273,57 @@ def _drawEnvelope(axes, result, highest, power, unit):
     start = -cohesion / tangent if cohesion > 0 else 0.0
     ends = np.array([max(start, -0.3 * highest), highest])
     axes.plot(ends, cohesion + tangent * ends, color="black", linewidth=1, linestyle=(0, (4, 2)))
-    axes.set(xlabel=f"normal stress [{unit}]", ylabel=f"shear stress [{unit}]", ylim=(0, 0.85 * highest), xlim=(min(0.0, ends[0]), 1.05 * highest))
+    axes.set(
+        xlabel=f"normal stress [{unit}]",
+        ylabel=f"shear stress [{unit}]",
+        ylim=(0, 0.85 * highest),
+        xlim=(min(0.0, ends[0]), 1.05 * highest),
+    )
     axes.set_aspect("equal", adjustable="box")
-    axes.text(0.03, 0.97, f"$\\varphi$ = {result['frictionAngle']:.1f}°\n$c$ = {quantity(result['cohesion'], 'Pa')}", transform=axes.transAxes, va="top", fontsize=9)
+    axes.text(
+        0.03,
+        0.97,
+        f"$\\varphi$ = {result['frictionAngle']:.1f}°\n$c$ = {quantity(result['cohesion'], 'Pa')}",
+        transform=axes.transAxes,
+        va="top",
+        fontsize=9,
+    )
 
 
 def drawPath(rows, path, title=None):
     """A stress path: stress against strain, and deviator against mean stress."""
-    axial, lateral, vertical, horizontal = (np.array(rows[name]) for name in ("strain [-]", "lateralStrain [-]", "stressV [Pa]", "stressH [Pa]"))
+    axial, lateral, vertical, horizontal = (
+        np.array(rows[name]) for name in ("strain [-]", "lateralStrain [-]", "stressV [Pa]", "stressH [Pa]")
+    )
     power, unit = pressureUnit(max(vertical.max(), horizontal.max()))
     with newFigure((7.6, 3.3)) as figure:
-        curve, invariants = figure.subplots(1, 2, gridspec_kw={"left": 0.09, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.28})
-        curve.plot(100 * axial, vertical / 10.0**power, color=COLOURS["dot"], marker=".", label="$\\sigma_V$ against $\\varepsilon_V$")
-        curve.plot(100 * lateral, horizontal / 10.0**power, color=COLOURS["compression"], marker=".", label="$\\sigma_H$ against $\\varepsilon_H$")
+        curve, invariants = figure.subplots(
+            1,
+            2,
+            gridspec_kw={"left": 0.09, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.28},
+        )
+        curve.plot(
+            100 * axial,
+            vertical / 10.0**power,
+            color=COLOURS["dot"],
+            marker=".",
+            label="$\\sigma_V$ against $\\varepsilon_V$",
+        )
+        curve.plot(
+            100 * lateral,
+            horizontal / 10.0**power,
+            color=COLOURS["compression"],
+            marker=".",
+            label="$\\sigma_H$ against $\\varepsilon_H$",
+        )
         curve.set(xlabel="strain [%]", ylabel=f"stress [{unit}]", ylim=(0, None))
         curve.legend(fontsize=8, frameon=False)
-        invariants.plot(0.5 * (vertical + horizontal) / 10.0**power, (vertical - horizontal) / 10.0**power, color=COLOURS["dot"], marker=".")
+        invariants.plot(
+            0.5 * (vertical + horizontal) / 10.0**power,
+            (vertical - horizontal) / 10.0**power,
+            color=COLOURS["dot"],
+            marker=".",
+        )
         invariants.set(xlabel=f"mean stress [{unit}]", ylabel=f"$\\sigma_V - \\sigma_H$ [{unit}]", xlim=(0, None))
         tidy(figure)
         if title:
@@ -195,7 +341,15 @@ def drawSizes(result, path):
         axes = figure.add_axes([0.13, 0.16, 0.84, 0.78])
         for colour, (name, label) in zip(CYCLE, _NAMES.items()):
             values = np.array(table[name])
-            axes.semilogx(table["rMin [m]"], values / values.mean(), color=colour, marker="o", markersize=4, linewidth=1, label=label)
+            axes.semilogx(
+                table["rMin [m]"],
+                values / values.mean(),
+                color=colour,
+                marker="o",
+                markersize=4,
+                linewidth=1,
+                label=label,
+            )
         axes.axhspan(0.975, 1.025, color=BAND, zorder=0, label="5 %")
         axes.set(xlabel="smallest radius [m]", ylabel="property / its mean", ylim=(0.9, 1.1))
         axes.legend(fontsize=8, frameon=False, ncol=5)
@@ -211,7 +365,9 @@ def drawSensitivity(result, path):
         height = 0.8 / len(_NAMES)
         for number, (name, label) in enumerate(_NAMES.items()):
             values = [result["exponent"][parameter][name] for parameter in parameters]
-            axes.barh(np.arange(len(parameters)) + (number - 1.5) * height, values, height, color=CYCLE[number], label=label)
+            axes.barh(
+                np.arange(len(parameters)) + (number - 1.5) * height, values, height, color=CYCLE[number], label=label
+            )
         axes.set(xlabel="exponent: property ~ parameter$^n$", yticks=range(len(parameters)))
         axes.set_yticklabels(parameters, fontsize=8)
         axes.invert_yaxis()

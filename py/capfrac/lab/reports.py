@@ -1,14 +1,24 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """What the tests without water leave in their run folders: tables, pictures, and the results for the summary.
 
-Each function takes the sample, the test's own parameters, its :class:`~capfrac.lab.run.LabRun` and the folder where paths in the parameters begin,
-and returns the results (a dict of numbers, texts, lists, dicts).
+Each function takes the sample, the test's own parameters, its :class:`~capfrac.lab.run.LabRun` and the folder where
+paths in the parameters begin, and returns the results (a dict of numbers, texts, lists, dicts).
 """
 
-from capfrac import snapshot
-from capfrac.errors import CaseError
-from capfrac.lab import biaxial, compaction, contacts, displacement, displacement_figures, figures, hydrate_ridge, percolation, percolation_figures, settling, tables, toughness
+from capfrac.lab import (
+    biaxial,
+    compaction,
+    displacement,
+    displacement_figures,
+    figures,
+    hydrate_ridge,
+    properties,
+    settling,
+)
 from capfrac.lab.box import STRAIN_DRIVEN, Box
-from capfrac.runfolder import exactText
+from capfrac.results import snapshot
+from capfrac.run.folder import exactText
+from capfrac.verification import contacts, percolation, percolation_figures, toughness
 
 
 def _settle(sample, own, run, base):
@@ -56,9 +66,13 @@ def _hydrateRidge(sample, own, run, base):
     for name, one in found["compactions"].items():
         run.table(f"compaction-{name}", one["table"])
     run.picture("figure10", lambda path: figures.drawHydrateRidge(found, path))
-    _keepCompaction(run, "compaction-average", found["compactions"]["average"], f"$k_n$ = {found['stiffness']['average']:.4g} N/m")
-    return {**{key: found[key] for key in ("stiffness", "Cc", "voidRatio", "reported", "local", "verdict")},
-            "loops": {name: one["loops"] for name, one in found["compactions"].items()}}
+    _keepCompaction(
+        run, "compaction-average", found["compactions"]["average"], f"$k_n$ = {found['stiffness']['average']:.4g} N/m"
+    )
+    return {
+        **{key: found[key] for key in ("stiffness", "Cc", "voidRatio", "reported", "local", "verdict")},
+        "loops": {name: one["loops"] for name, one in found["compactions"].items()},
+    }
 
 
 def _path(sample, own, run, base):
@@ -78,8 +92,12 @@ def _path(sample, own, run, base):
     rows = box.rows
     run.table("path", rows)
     run.picture("path", lambda path: figures.drawPath(rows, path, own["mode"]))
-    return {"mode": own["mode"], "last": {name: values[-1] for name, values in rows.items()}, "K0": rows["stressH [Pa]"][-1] / rows["stressV [Pa]"][-1],
-            "quasiStatic": box.quasiStatic()}
+    return {
+        "mode": own["mode"],
+        "last": {name: values[-1] for name, values in rows.items()},
+        "K0": rows["stressH [Pa]"][-1] / rows["stressV [Pa]"][-1],
+        "quasiStatic": box.quasiStatic(),
+    }
 
 
 def _biaxial(sample, own, run, base):
@@ -91,14 +109,14 @@ def _biaxial(sample, own, run, base):
 
 
 def _sizes(sample, own, run, base):
-    found = tables.sizes(sample, run=run, **own)
+    found = properties.sizes(sample, run=run, **own)
     run.table("sizes", found["table"])
     run.picture("sizes", lambda path: figures.drawSizes(found, path))
     return found
 
 
 def _sensitivity(sample, own, run, base):
-    found = tables.sensitivity(sample, run=run, **own)
+    found = properties.sensitivity(sample, run=run, **own)
     run.table("sensitivity", found["table"])
     run.picture("sensitivity", lambda path: figures.drawSensitivity(found, path))
     return found
@@ -115,16 +133,33 @@ def _contacts(sample, own, run, base):
 def _percolation(sample, own, run, base):
     found = percolation.percolation(**own, seed=sample.seed, rMin=sample.rMin, rMax=sample.rMax, run=run)
     run.table("percolation", percolation.table(found))
-    run.table("radius", {"radius [pores]": found["radius"]["free"]["radius"], **{f"{kind} mass [pores]": found["radius"][kind]["mass"] for kind in percolation.DIMENSIONS}})
+    run.table(
+        "radius",
+        {
+            "radius [pores]": found["radius"]["free"]["radius"],
+            **{f"{kind} mass [pores]": found["radius"][kind]["mass"] for kind in percolation.DIMENSIONS},
+        },
+    )
     run.picture("percolation", lambda path: percolation_figures.drawPercolation(found, path))
     return found
 
 
 def _displacement(sample, own, run, base):
     found = displacement.displacement(sample, run=run, **own)
-    columns = {"capillaryNumber [-]": "capillaryNumber", "viscosityRatio [-]": "viscosityRatio", "saturation [-]": "saturation", "roughness [-]": "roughness",
-               "filledBehind [-]": "filledBehind", "pressure [Pa]": "pressure", "entries": "entries", "ledger [-]": "ledger"}
-    run.table("displacement", {"corner": list(found), **{column: [one[name] for one in found.values()] for column, name in columns.items()}})
+    columns = {
+        "capillaryNumber [-]": "capillaryNumber",
+        "viscosityRatio [-]": "viscosityRatio",
+        "saturation [-]": "saturation",
+        "roughness [-]": "roughness",
+        "filledBehind [-]": "filledBehind",
+        "pressure [Pa]": "pressure",
+        "entries": "entries",
+        "ledger [-]": "ledger",
+    }
+    run.table(
+        "displacement",
+        {"corner": list(found), **{column: [one[name] for one in found.values()] for column, name in columns.items()}},
+    )
     if run.folder is not None:
         shots = {name: snapshot.load(run.folder.path / "snapshots" / f"{name.replace(' ', '-')}.npz") for name in found}
         run.picture("displacement", lambda path: displacement_figures.drawDisplacement(found, shots, path))
@@ -135,14 +170,37 @@ def _toughness(sample, own, run, base):
     found = toughness.toughness(sample, run=run, **own)
     for kind in ("lattice", "samples"):
         tests = found[kind]["tests"]
-        run.table(kind, {**{f"{name} [m]": [t[name] for t in tests] for name in ("halfLength", "radius", "width")}, "pressure [Pa]": [t["pressure"] for t in tests],
-                         "firstBond [Pa]": [t["firstBond"] for t in tests], "inletPores": [t["inletPores"] for t in tests],
-                         **({"expected [Pa]": [t["expected"] for t in tests]} if kind == "lattice" else {"seed": [t["seed"] for t in tests]})})
+        run.table(
+            kind,
+            {
+                **{f"{name} [m]": [t[name] for t in tests] for name in ("halfLength", "radius", "width")},
+                "pressure [Pa]": [t["pressure"] for t in tests],
+                "firstBond [Pa]": [t["firstBond"] for t in tests],
+                "inletPores": [t["inletPores"] for t in tests],
+                **(
+                    {"expected [Pa]": [t["expected"] for t in tests]}
+                    if kind == "lattice"
+                    else {"seed": [t["seed"] for t in tests]}
+                ),
+            },
+        )
     run.picture("toughness", lambda path: toughness.drawToughness(found, path))
     return found
 
 
 #: The function of each test.
-REPORTS = {"settle": _settle, "timestep": _timestep, "compact": _compact, "fit": _fit, "hydrate-ridge": _hydrateRidge, "path": _path, "biaxial": _biaxial,
-           "sizes": _sizes, "sensitivity": _sensitivity, "contacts": _contacts, "percolation": _percolation, "displacement": _displacement,
-           "toughness": _toughness}
+REPORTS = {
+    "settle": _settle,
+    "timestep": _timestep,
+    "compact": _compact,
+    "fit": _fit,
+    "hydrate-ridge": _hydrateRidge,
+    "path": _path,
+    "biaxial": _biaxial,
+    "sizes": _sizes,
+    "sensitivity": _sensitivity,
+    "contacts": _contacts,
+    "percolation": _percolation,
+    "displacement": _displacement,
+    "toughness": _toughness,
+}

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """A laboratory test as a sequence of stages that can be interrupted and taken up again.
 
 A test asks its :class:`LabRun` before every stage::
@@ -8,11 +9,13 @@ A test asks its :class:`LabRun` before every stage::
 
 What a stage has to remember beside YADE's scene it keeps in ``run.data`` (numbers, texts, lists, dicts), which is saved
 together with the scene. Stages work towards absolute targets, so one that was interrupted goes on from the checkpoint.
-A test of several samples wraps each into :meth:`LabRun.result`. Without a folder nothing is written: for use in scripts.
+A test of several samples wraps each into :meth:`LabRun.result`. Without a folder nothing is written: for use in
+scripts.
 
-A scene that was loaded differs from the one that was saved in the order of its contacts, so sums of forces differ in the
-last digit, and grains that slide make more of it. A run therefore goes on from the checkpoint that it has just saved, at
-moments that depend on the test alone: interrupted or not, with a folder or without, its results are the same bits.
+A scene that was loaded differs from the one that was saved in the order of its contacts, so sums of forces differ in
+the last digit, and grains that slide make more of it. A run therefore goes on from the checkpoint that it has just
+saved, at moments that depend on the test alone: interrupted or not, with a folder or without, its results are the same
+bits.
 
 A run folder holds ``summary.json`` (parameters, results, versions), ``tables/*.csv``, ``pictures/*.png``, and while the
 run is not finished ``state.json`` with the scene of the last checkpoint in ``scenes/``.
@@ -22,7 +25,7 @@ import json
 
 from capfrac import environment
 from capfrac.errors import RunFolderError
-from capfrac.runfolder import RunFolder, holdingInterrupts
+from capfrac.run.folder import RunFolder, holdingInterrupts
 
 #: Rows of a test between checkpoints; what an interruption may cost.
 CHECKPOINT_TICKS = 20
@@ -40,8 +43,9 @@ class LabRun:
     """Stages, checkpoints and results of a test.
 
     ``test``: its name; ``parameters``: dict of sections, what the run depends on (kept, and compared when a folder is
-    taken up again); ``files``: those that they name (see :func:`capfrac.namedfiles.digests`). ``folder`` None: nothing
-    is written. ``report(text)`` shows progress. Raises :class:`RunFolderError` for a folder that cannot be used.
+    taken up again); ``files``: those that they name (see :func:`capfrac.io.namedfiles.digests`). ``folder`` None:
+    nothing is written. ``report(text)`` shows progress. Raises :class:`RunFolderError` for a folder that cannot be
+    used.
     """
 
     def __init__(self, test, parameters, folder=None, restart=False, report=lambda text: None, files=None):
@@ -57,11 +61,16 @@ class LabRun:
         if self.folder is not None:
             self._takeUp()
             if not self.finished:
-                from capfrac.injection import versions
+                from capfrac.run.injection import versions
 
                 del parameters["test"]
-                self.folder.writeSummary(state="running", test=test, parameters=parameters, versions=versions(),
-                                         threads=environment.most(self.folder.summary))
+                self.folder.writeSummary(
+                    state="running",
+                    test=test,
+                    parameters=parameters,
+                    versions=versions(),
+                    threads=environment.most(self.folder.summary),
+                )
 
     @property
     def finished(self):
@@ -79,10 +88,22 @@ class LabRun:
             return
         try:
             state = json.loads(path.read_text(encoding="utf-8"))
-            wanted = {"data": dict, "done": list, "results": dict, "scene": (str, type(None)), "count": int, "current": (str, type(None))}
-            if not (isinstance(state, dict) and all(key in state and isinstance(state[key], kind) for key, kind in wanted.items())):
+            wanted = {
+                "data": dict,
+                "done": list,
+                "results": dict,
+                "scene": (str, type(None)),
+                "count": int,
+                "current": (str, type(None)),
+            }
+            if not (
+                isinstance(state, dict)
+                and all(key in state and isinstance(state[key], kind) for key, kind in wanted.items())
+            ):
                 raise ValueError("not the state of a run")
-            self.data, self._done, self._results, self._scene, self._count, self._current = (state[key] for key in wanted)
+            self.data, self._done, self._results, self._scene, self._count, self._current = (
+                state[key] for key in wanted
+            )
         except (OSError, ValueError) as problem:
             raise RunFolderError(f"{path} cannot be read ({problem}); --restart discards the run") from None
         self._pending = self._scene is not None
@@ -96,10 +117,16 @@ class LabRun:
         try:
             O.reset()
             O.load(str(path), quiet=True)
-        except (RuntimeError, MemoryError, ValueError) as problem:  # what YADE raises depends on where the file ends to make sense
+        except (
+            RuntimeError,
+            MemoryError,
+            ValueError,
+        ) as problem:  # what YADE raises depends on where the file ends to make sense
             O.reset()
-            raise RunFolderError(f"the checkpoint {path} cannot be read ({problem or type(problem).__name__}): damaged, or of another version; "
-                                 "--restart discards the run") from None
+            raise RunFolderError(
+                f"the checkpoint {path} cannot be read ({problem or type(problem).__name__}): damaged, or of another"
+                " version; --restart discards the run"
+            ) from None
         environment.adoptScene()
         self._pending = False
 
@@ -117,8 +144,8 @@ class LabRun:
     def result(self, name, work):
         """The value of ``work()`` (numbers, texts, lists, dicts), computed once; ``work`` may use stages of its own.
 
-        The scene is emptied first, unless it is that of an interrupted ``work``, and what its stages remember is forgotten
-        afterwards.
+        The scene is emptied first, unless it is that of an interrupted ``work``, and what its stages remember is
+        forgotten afterwards.
         """
         if name in self._results:
             return self._results[name]
@@ -168,7 +195,14 @@ class LabRun:
             self.folder.sub("scenes")
             self._scene = f"scenes/{self._count}.yade.gz"
             self.folder.writeWhole(self._scene, lambda path: O.save(str(path), quiet=True))
-        state = {"data": self.data, "done": self._done, "results": self._results, "scene": self._scene, "count": self._count, "current": self._current}
+        state = {
+            "data": self.data,
+            "done": self._done,
+            "results": self._results,
+            "scene": self._scene,
+            "count": self._count,
+            "current": self._current,
+        }
         text = json.dumps(state)
         self.folder.writeWhole("state.json", lambda path: path.write_text(text, encoding="utf-8"))
         if old:
@@ -202,7 +236,9 @@ class LabRun:
         (self.folder.path / "state.json").unlink(missing_ok=True)
         scenes = self.folder.path / "scenes"
         if scenes.is_dir():
-            for entry in list(scenes.glob("*.yade.gz")):  # those of a process that was killed as it wrote or cleared them, too
+            for entry in list(
+                scenes.glob("*.yade.gz")
+            ):  # those of a process that was killed as it wrote or cleared them, too
                 entry.unlink()
             if not any(scenes.iterdir()):
                 scenes.rmdir()

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Sweeps: many injections from one file, run in parallel, resumable, collected in a table.
 
 * :mod:`capfrac.sweep.sweepfile`: what a sweep file says, and the order of its points,

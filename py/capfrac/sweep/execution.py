@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Run the points of a sweep, several at a time, each in a process of its own.
 
 :func:`runPoint` is all that happens to one point; it takes and returns plain data, so anything with the ``submit`` of
@@ -29,7 +30,7 @@ def runPoint(job):
     """Run one point; returns a dict.
 
     ``job`` has ``name``, ``place`` (the working folder), ``folder`` (the run folder), ``key`` (of the run: see
-    :func:`capfrac.runfolder.caseKey`), ``threads``, ``arguments`` (case and overrides) and ``stop``, the path of a
+    :func:`capfrac.run.folder.caseKey`), ``threads``, ``arguments`` (case and overrides) and ``stop``, the path of a
     file: where it exists the point does not begin, or leaves its folder to be taken up.
 
     ``status`` is the exit status of its process (0: finished, 130: interrupted, < 0: ended by that signal), ``error``
@@ -47,18 +48,35 @@ def runPoint(job):
         status = process.returncode
     if status < 0 and not errors:
         errors = f"ended by signal {-status} ({signal.Signals(-status).name})"
-    return {"name": job["name"], "status": status, "error": errors[-_ERROR_LENGTH:] if status else "",
-            "seconds": time.monotonic() - start}
+    return {
+        "name": job["name"],
+        "status": status,
+        "error": errors[-_ERROR_LENGTH:] if status else "",
+        "seconds": time.monotonic() - start,
+    }
 
 
 def _start(job):
     variables = dict(os.environ)
     environment.settle(variables, job["threads"])
-    command = environment.pythonOf("from capfrac.sweep.worker import main; main()", str(os.getpid()), job["folder"],
-                                   job["key"], str(job["threads"]), *job["arguments"])
+    command = environment.pythonOf(
+        "from capfrac.sweep.worker import main; main()",
+        str(os.getpid()),
+        job["folder"],
+        job["key"],
+        str(job["threads"]),
+        *job["arguments"],
+    )
     # In a session of its own, Ctrl-C in a terminal reaches the sweep alone, which then asks its points to stop.
-    return subprocess.Popen(command, cwd=job["place"], env=variables, stdin=subprocess.DEVNULL,
-                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
+    return subprocess.Popen(
+        command,
+        cwd=job["place"],
+        env=variables,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    )
 
 
 def _watch(process, stop):
@@ -110,8 +128,9 @@ def _submit(executor, job):
     try:
         return executor.submit(runPoint, job)
     except RuntimeError as problem:  # broken, or shut down
-        raise CapfracError(f"the executor takes no point ({type(problem).__name__}: {problem}); the same call goes on "
-                           "with the sweep") from problem
+        raise CapfracError(
+            f"the executor takes no point ({type(problem).__name__}: {problem}); the same call goes on with the sweep"
+        ) from problem
 
 
 def _outcome(name, future, seconds):
@@ -121,8 +140,9 @@ def _outcome(name, future, seconds):
     except (futures.CancelledError, asyncio.CancelledError):
         return {**failed, "error": None}
     except futures.BrokenExecutor as problem:  # it takes all points with it, which did nothing wrong
-        raise CapfracError(f"the executor broke ({type(problem).__name__}: {problem}); the same call goes on with the "
-                           "sweep") from problem
+        raise CapfracError(
+            f"the executor broke ({type(problem).__name__}: {problem}); the same call goes on with the sweep"
+        ) from problem
     except Exception as problem:
         return {**failed, "error": f"{type(problem).__name__}: {problem}"[-_ERROR_LENGTH:]}
 

@@ -1,10 +1,13 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Figures of sweeps, by the name that a sweep file gives; drawn from the table alone."""
 
 from pathlib import Path
 
 
 def draw(name, table, folder):
-    """Draw the figures called ``name`` (as in ``sweep.figures``) from a table into a folder; returns the paths of what was written."""
+    """Draw the figures called ``name`` (as in ``sweep.figures``) from a table into a folder; returns the paths of what
+    was written.
+    """
     folder = Path(folder)
     if not name:
         return []

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The folder of a sweep, usable at any moment:
 
     table.csv        every point of the sweep: parameters, mode, pressures, cost, or why it failed
@@ -15,7 +16,7 @@ from pathlib import Path
 
 import capfrac
 from capfrac.errors import RunFolderError
-from capfrac.runfolder import difference, putInPlace, readSummary
+from capfrac.run.folder import difference, putInPlace, readSummary
 from capfrac.sweep import table
 
 #: Before the key of the case that failed, in the file that tells why.
@@ -29,12 +30,15 @@ class SweepFolder:
         self.path, self.sweep = Path(path), sweep
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            # Without sweep.json there may be points, run one by one by the commands of `capfrac sweep --list`, or what a sweep
-            # has begun with that is just starting, or was killed there.
+            # Without sweep.json there may be points, run one by one by the commands of `capfrac sweep --list`, or what
+            # a sweep has begun with that is just starting, or was killed there.
             own = (".lock", ".stop", ".sweep.json", "points", "failed")
             foreign = [entry.name for entry in self.path.iterdir() if entry.name not in own]
             if foreign and not (self.path / "sweep.json").exists():
-                raise RunFolderError(f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or new one")
+                raise RunFolderError(
+                    f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or"
+                    " new one"
+                )
             self._lock = open(self.path / ".lock", "w")  # open as long as this object lives
             for name in ("points", "failed"):
                 (self.path / name).mkdir(exist_ok=True)
@@ -43,14 +47,23 @@ class SweepFolder:
         try:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            raise RunFolderError(f"another sweep is at work in {self.path}; wait for it, or choose another folder") from None
+            raise RunFolderError(
+                f"another sweep is at work in {self.path}; wait for it, or choose another folder"
+            ) from None
         self._rows = {}
         others = [(point, held) for point in sweep.points if (held := self.difference(point))]
         if others:
             more = f" ({len(others)} of {len(sweep.points)} points are so)" if len(others) > 1 else ""
-            raise RunFolderError(f"{self.run(others[0][0])} holds {others[0][1]}{more}; choose another folder for the "
-                                 "sweep, or remove what is in this one")
-        head = {"name": sweep.name, "title": sweep.title, "description": sweep.description, "capfrac": capfrac.__version__}
+            raise RunFolderError(
+                f"{self.run(others[0][0])} holds {others[0][1]}{more}; choose another folder for the "
+                "sweep, or remove what is in this one"
+            )
+        head = {
+            "name": sweep.name,
+            "title": sweep.title,
+            "description": sweep.description,
+            "capfrac": capfrac.__version__,
+        }
         self._whole("sweep.json", lambda path: path.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8"))
 
     def close(self):

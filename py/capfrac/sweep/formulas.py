@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Formulas of sweep files: arithmetic on named numbers, and nothing else.
 
 ``"0.5 * min(rigid, stress.horizontal)"``: numbers, names (with dots: keys of a case), ``+ - * / **``, brackets, and the
@@ -11,8 +12,22 @@ import operator
 from capfrac.errors import CaseError
 from capfrac.values import asFloat, shown
 
-FUNCTIONS = {"min": min, "max": max, "sqrt": math.sqrt, "exp": math.exp, "log": math.log, "log10": math.log10, "round": round}
-_BINARY = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv, ast.Pow: operator.pow}
+FUNCTIONS = {
+    "min": min,
+    "max": max,
+    "sqrt": math.sqrt,
+    "exp": math.exp,
+    "log": math.log,
+    "log10": math.log10,
+    "round": round,
+}
+_BINARY = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+}
 _UNARY = {ast.UAdd: operator.pos, ast.USub: operator.neg}
 
 
@@ -30,8 +45,10 @@ class Formula:
         except CaseError:
             raise
         except (SyntaxError, ValueError, RecursionError, MemoryError):
-            raise CaseError(f"{source} = '{str(text)[:200]}' is not a formula; allowed: numbers, names, + - * / **, "
-                            f"brackets, {', '.join(FUNCTIONS)}") from None
+            raise CaseError(
+                f"{source} = '{str(text)[:200]}' is not a formula; allowed: numbers, names, + - * / **, "
+                f"brackets, {', '.join(FUNCTIONS)}"
+            ) from None
 
     def _check(self, node):
         """Refuse what is not arithmetic, and collect the names."""
@@ -42,17 +59,32 @@ class Formula:
             self._check(node.left), self._check(node.right)
         elif isinstance(node, ast.UnaryOp) and type(node.op) in _UNARY:
             self._check(node.operand)
-        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in FUNCTIONS and node.args and not node.keywords:
+        elif (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Name)
+            and node.func.id in FUNCTIONS
+            and node.args
+            and not node.keywords
+        ):
             for argument in node.args:
                 self._check(argument)
-        elif not (isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool)):
-            raise CaseError(f"{self.source} = '{self.text}': '{ast.unparse(node)}' is not allowed in a formula; allowed: numbers, names, + - * / **, brackets, {', '.join(FUNCTIONS)}")
+        elif not (
+            isinstance(node, ast.Constant) and isinstance(node.value, (int, float)) and not isinstance(node.value, bool)
+        ):
+            raise CaseError(
+                f"{self.source} = '{self.text}': '{ast.unparse(node)}' is not allowed in a formula; allowed: numbers,"
+                f" names, + - * / **, brackets, {', '.join(FUNCTIONS)}"
+            )
 
     def value(self, values):
-        """The number for ``values`` (name -> number). Raises :class:`CaseError` naming what is missing or where no finite number comes out."""
+        """The number for ``values`` (name -> number). Raises :class:`CaseError` naming what is missing or where no
+        finite number comes out.
+        """
         missing = sorted(name for name in self.names if name not in values)
         if missing:
-            raise CaseError(f"{self.source} = '{self.text}': '{missing[0]}' is not known; known: {', '.join(sorted(values))}")
+            raise CaseError(
+                f"{self.source} = '{self.text}': '{missing[0]}' is not known; known: {', '.join(sorted(values))}"
+            )
         for name in self.names:
             if asFloat(values[name]) is None:
                 raise CaseError(f"{self.source} = '{self.text}': {name} = {shown(values[name])} is not a number")
@@ -70,8 +102,9 @@ class Formula:
         whole = round(found)
         # The round-off of a short formula is some 1e-16 of the numbers in it, which may be larger than what comes out.
         if abs(found - whole) > min(1e-9 * max(1, abs(found)), 1e-3):
-            raise CaseError(f"{self.source} = '{self.text}' gives {found!r}, allowed: a whole number; "
-                            "round(...) makes one of it")
+            raise CaseError(
+                f"{self.source} = '{self.text}' gives {found!r}, allowed: a whole number; round(...) makes one of it"
+            )
         return whole
 
     def _evaluate(self, node, values):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The points of a sweep: their order, and the case of each."""
 
 import itertools
@@ -7,11 +8,12 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-from capfrac import keys, namedfiles, tomlfiles
-from capfrac.case import KEYS, readCase, shippedCases
-from capfrac.casepacking import checkPacking
+from capfrac.case import schema
+from capfrac.case.packing import checkPacking
+from capfrac.case.read import KEYS, readCase, shippedCases
 from capfrac.errors import CaseError
-from capfrac.runfolder import caseKey
+from capfrac.io import namedfiles, tomlfiles
+from capfrac.run.folder import caseKey
 from capfrac.values import asFloat, shown
 
 #: Repeats of a sample: its axis is the slowest.
@@ -29,7 +31,7 @@ class Point:
     values: dict  #: axes, rules and keys set by them: name -> value
     case: dict  #: the resolved case
     arguments: tuple  #: case and overrides (``section.key=value``): what makes the same run with ``capfrac inject``
-    files: dict  #: those that the case names (see :func:`capfrac.namedfiles.digests`)
+    files: dict  #: those that the case names (see :func:`capfrac.io.namedfiles.digests`)
 
     @property
     def key(self):
@@ -56,8 +58,10 @@ def resolvePoints(base, fixed, rules, grids):
         except CaseError as problem:
             for text in problem.problems:
                 amiss.setdefault(text, []).append(_name(axes))
-    problems = [f"point {names[0]}: {text}{f' (and {len(names) - 1} more points)' if len(names) > 1 else ''}"
-                for text, names in amiss.items()]
+    problems = [
+        f"point {names[0]}: {text}{f' (and {len(names) - 1} more points)' if len(names) > 1 else ''}"
+        for text, names in amiss.items()
+    ]
     if len(problems) > MOST_TOLD:
         problems[MOST_TOLD:] = [f"and {len(problems) - MOST_TOLD} more problems of points"]
     problems += _sameNames(points)
@@ -71,8 +75,10 @@ def _sameNames(points):
     names = Counter(point.name.casefold() for point in points)  # some disks do not know capitals
     for folder in {point.name.casefold(): point.name for point in reversed(points)}.values():
         if (count := names[folder.casefold()]) > 1:
-            yield (f"{count} points would be called {folder}: values of an axis must differ in their first six digits, "
-                   "or by more than capitals")
+            yield (
+                f"{count} points would be called {folder}: values of an axis must differ in their first six digits, "
+                "or by more than capitals"
+            )
 
 
 def _sameRuns(points):
@@ -82,8 +88,10 @@ def _sameRuns(points):
         other = first.setdefault((point.key, json.dumps(point.case["output"], sort_keys=True)), point)
         if other is not point:
             axes = ", ".join(key for key in point.values if point.values[key] != other.values[key])
-            yield (f"the points {other.name} and {point.name} would be the same run: {axes} has no effect in them; "
-                   "leave one value of it")
+            yield (
+                f"the points {other.name} and {point.name} would be the same run: {axes} has no effect in them; "
+                "leave one value of it"
+            )
             return
 
 
@@ -144,9 +152,13 @@ def _numbers(base, given):
     raw = tomlfiles.readToml(path)
     for key, value in given.items():
         tomlfiles.override(raw, f"{key}={_toml(value)}")
-    case, _, _ = keys.check(raw, KEYS)
-    return {f"{section}.{key}": value for section, entries in case.items() for key, value in entries.items()
-            if isinstance(value, (int, float)) and not isinstance(value, bool)}
+    case, _, _ = schema.check(raw, KEYS)
+    return {
+        f"{section}.{key}": value
+        for section, entries in case.items()
+        for key, value in entries.items()
+        if isinstance(value, (int, float)) and not isinstance(value, bool)
+    }
 
 
 def _byNeed(rules):
@@ -163,8 +175,9 @@ def _byNeed(rules):
 
 def _name(axes):
     parts = [(axis.rpartition(".")[2], value) for axis, value in axes.items()]
-    return "_".join(f"{name}-{value}" if asFloat(value) is None else f"{name}{value:g}"
-                    for name, value in parts).replace("/", "-")
+    return "_".join(
+        f"{name}-{value}" if asFloat(value) is None else f"{name}{value:g}" for name, value in parts
+    ).replace("/", "-")
 
 
 def _toml(value):

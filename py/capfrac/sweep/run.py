@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Carry out a sweep: :func:`runSweep`."""
 
 import os
@@ -14,14 +15,14 @@ from capfrac.values import asInt, shown
 def runSweep(sweep, folder, processes=1, points=None, retry=False, report=lambda text: None, executor=None, threads=1):
     """Run the points of a :class:`~capfrac.sweep.sweepfile.Sweep` that are not finished; returns a dict.
 
-    ``folder``: see :mod:`capfrac.sweep.folder`; ``processes`` at a time (>= 1); ``points``: only the first so many; ``retry``: points
-    that failed earlier, too. ``threads`` of each point: see :mod:`capfrac.environment`. ``report(text)`` gets a line for
-    each point. ``executor`` carries the points out in place of ``processes`` on this machine, and stays open (see
-    :func:`capfrac.sweep.execution.runAll`). Interrupted (Ctrl-C), the folder is left usable and the interruption goes on
-    to the caller; the same call then goes on. The result: counts of ``finished``, ``failed`` and all ``points`` (the rest
-    are points whose future was cancelled), ``failures`` (pairs of a point's name and what it said), ``table`` (its path),
-    ``seconds`` of this call. Raises :class:`CapfracError` where the executor breaks,
-    :class:`CaseError` for numbers of points, processes or threads that are none.
+    ``folder``: see :mod:`capfrac.sweep.folder`; ``processes`` at a time (>= 1); ``points``: only the first so many;
+    ``retry``: points that failed earlier, too. ``threads`` of each point: see :mod:`capfrac.environment`.
+    ``report(text)`` gets a line for each point. ``executor`` carries the points out in place of ``processes`` on this
+    machine, and stays open (see :func:`capfrac.sweep.execution.runAll`). Interrupted (Ctrl-C), the folder is left
+    usable and the interruption goes on to the caller; the same call then goes on. The result: counts of ``finished``,
+    ``failed`` and all ``points`` (the rest are points whose future was cancelled), ``failures`` (pairs of a point's
+    name and what it said), ``table`` (its path), ``seconds`` of this call. Raises :class:`CapfracError` where the
+    executor breaks, :class:`CaseError` for numbers of points, processes or threads that are none.
     """
     environment.checkThreads(threads)
     for name, value in (("processes", processes), ("points", points)):
@@ -64,11 +65,23 @@ def _run(sweep, place, processes, points, retry, report, executor, threads):
         place.writeTable(points)
         ended = counts["finished"] + counts["failed"]
         remaining = (time.monotonic() - start) / (ended - len(points) + len(todo)) * (len(points) - ended)
-        report(f"{ended}/{len(points)} {point.name}: {_told(place, point, state)}, {outcome['seconds']:.0f} s; {asTime(remaining)} to go")
+        report(
+            f"{ended}/{len(points)} {point.name}: {_told(place, point, state)}, {outcome['seconds']:.0f} s;"
+            f" {asTime(remaining)} to go"
+        )
 
     # Elsewhere in a cluster the working folder may be another.
-    jobs = [{"name": point.name, "place": os.getcwd(), "folder": str(place.run(point)), "key": point.key,
-             "threads": threads, "arguments": list(point.arguments)} for point in todo]
+    jobs = [
+        {
+            "name": point.name,
+            "place": os.getcwd(),
+            "folder": str(place.run(point)),
+            "key": point.key,
+            "threads": threads,
+            "arguments": list(point.arguments),
+        }
+        for point in todo
+    ]
     stop = place.stop.absolute()
     if executor is not None:
         execution.runAll(jobs, executor, stop, done)
@@ -76,8 +89,13 @@ def _run(sweep, place, processes, points, retry, report, executor, threads):
         with futures.ThreadPoolExecutor(processes, "point") as workers:
             execution.runAll(jobs, workers, stop, done)
     failures = [(point.name, place.row(point)["error"]) for point in points if place.state(point) == "failed"]
-    return {**counts, "failures": failures, "points": len(points), "table": place.path / "table.csv",
-            "seconds": time.monotonic() - start}
+    return {
+        **counts,
+        "failures": failures,
+        "points": len(points),
+        "table": place.path / "table.csv",
+        "seconds": time.monotonic() - start,
+    }
 
 
 def _told(place, point, state):
@@ -94,4 +112,10 @@ def _told(place, point, state):
 def asTime(seconds):
     """Seconds as people say them."""
     minutes = round(seconds / 60)
-    return f"{seconds:.0f} s" if seconds < 90 else f"{minutes} min" if minutes < 90 else f"{minutes // 60} h {minutes % 60:02d} min"
+    return (
+        f"{seconds:.0f} s"
+        if seconds < 90
+        else f"{minutes} min"
+        if minutes < 90
+        else f"{minutes // 60} h {minutes % 60:02d} min"
+    )

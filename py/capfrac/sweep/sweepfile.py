@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Sweep files: which injections a sweep is made of, and in which order.
 
 A TOML file with a base case and lists of values::
@@ -18,28 +19,40 @@ A TOML file with a base case and lists of values::
     grains.seed = [1, 2]
 
 An axis may be a name of its own (with a unit), which rules then use. Points are ordered so that every beginning of the
-list is a useful map: all points of the first seed before any of the second; among them one grid after the other; within a
-grid first the corners, then the middles of its axes, then the quarters, and so on. A point that two grids have is run once.
+list is a useful map: all points of the first seed before any of the second; among them one grid after the other; within
+a grid first the corners, then the middles of its axes, then the quarters, and so on. A point that two grids have is run
+once.
 """
 
 import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from capfrac import keys, tomlfiles
+from capfrac.case import schema
 from capfrac.errors import CaseError
+from capfrac.io import tomlfiles
 from capfrac.sweep.formulas import Formula
 from capfrac.sweep.points import CASE_KEYS, SEED, resolvePoints
 from capfrac.sweep.points import Point, refinementLevels  # noqa: F401 (part of this module)
-from capfrac.values import asFloat, shown
+from capfrac.values import asFloat, didYouMean, shown
 
 #: More points than this are a mistake in a list rather than a plan.
 MAX_POINTS = 100_000
 _SWEEP_KEYS = (
-    keys.Key("sweep", "title", str, "-", "", "Title of pictures and reports."),
-    keys.Key("sweep", "description", str, "-", "", "What the sweep is for, where its rules come from."),
-    keys.Key("sweep", "case", str, "-", keys.REQUIRED, "The base: a case file (beside the sweep file) or a shipped case."),
-    keys.Key("sweep", "figures", str, "-", "", "Figures that are drawn from the table.", choices=("", "regime_map", "hydrate_ridge_depth")),
+    schema.Key("sweep", "title", str, "-", "", "Title of pictures and reports."),
+    schema.Key("sweep", "description", str, "-", "", "What the sweep is for, where its rules come from."),
+    schema.Key(
+        "sweep", "case", str, "-", schema.REQUIRED, "The base: a case file (beside the sweep file) or a shipped case."
+    ),
+    schema.Key(
+        "sweep",
+        "figures",
+        str,
+        "-",
+        "",
+        "Figures that are drawn from the table.",
+        choices=("", "regime_map", "hydrate_ridge_depth"),
+    ),
 )
 
 
@@ -71,14 +84,17 @@ def readSweep(nameOrPath, overrides=()):
     try:
         raw = tomlfiles.readToml(path)
     except OSError as problem:
-        raise CaseError(f"the sweep '{nameOrPath}' cannot be read ({problem.strerror}); shipped sweeps: {', '.join(shippedSweeps())}") from None
+        raise CaseError(
+            f"the sweep '{nameOrPath}' cannot be read ({problem.strerror}); shipped sweeps:"
+            f" {', '.join(shippedSweeps())}"
+        ) from None
     return resolveSweep(raw, path.stem, path.resolve().parent, str(path), overrides)
 
 
 def resolveSweep(raw, name, folder=".", source="sweep", overrides=()):
     """The :class:`Sweep` of a sweep file given as a dict; see :func:`readSweep`. ``folder``: where paths begin."""
     problems = _Problems(_unknown(raw))
-    head, found, _ = keys.check({"sweep": raw.get("sweep", {})}, _SWEEP_KEYS)
+    head, found, _ = schema.check({"sweep": raw.get("sweep", {})}, _SWEEP_KEYS)
     problems += found
     head = head["sweep"]
     fixed = problems.collect(_flat, raw.get("set", {}), "set") or {}
@@ -98,8 +114,11 @@ def resolveSweep(raw, name, folder=".", source="sweep", overrides=()):
         points = problems.collect(resolvePoints, base, known, rules, grids)
     if problems:
         raise CaseError(*problems, source=source)
-    columns = {key: units.get(key, getattr(CASE_KEYS.get(key), "unit", "-"))
-               for key in (*axes, *rules) if "." in key or key in units}
+    columns = {
+        key: units.get(key, getattr(CASE_KEYS.get(key), "unit", "-"))
+        for key in (*axes, *rules)
+        if "." in key or key in units
+    }
     return Sweep(name, head["title"], head["description"], head["figures"], columns, tuple(points))
 
 
@@ -124,11 +143,12 @@ def _namesAmiss(fixed, units, rules, axes):
     """Names that stand where they must not."""
     for key in (*fixed, *(k for k in (*rules, *axes) if "." in k)):
         if key not in CASE_KEYS:
-            yield f"'{key}' is no key of a case{keys.didYouMean(key, CASE_KEYS)}"
+            yield f"'{key}' is no key of a case{didYouMean(key, CASE_KEYS)}"
     for key in axes:
         if key in rules or key in fixed:
-            yield (f"'{key}' is an axis of the grid and in [{'rules' if key in rules else 'set'}], allowed: one of "
-                   "them")
+            yield (
+                f"'{key}' is an axis of the grid and in [{'rules' if key in rules else 'set'}], allowed: one of them"
+            )
         if "." not in key and key not in units:
             yield f"the axis '{key}' has no unit; give one in [units], or take a key of a case"
     for key, unit in units.items():
@@ -177,8 +197,11 @@ def _axesAmiss(number, grid, first):
         if not isinstance(values, list) or not values:
             yield f"grid {number}: {axis} = {shown(values)}, allowed: a list of values"
             continue
-        beyond = [value for value in values
-                  if isinstance(value, (int, float)) and not isinstance(value, bool) and asFloat(value) is None]
+        beyond = [
+            value
+            for value in values
+            if isinstance(value, (int, float)) and not isinstance(value, bool) and asFloat(value) is None
+        ]
         if beyond:
             yield f"grid {number}: {axis} holds {shown(beyond[0])}, allowed: finite numbers"
         elif len(set(map(repr, values))) < len(values):

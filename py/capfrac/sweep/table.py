@@ -1,10 +1,11 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """The table of a sweep: one line a point, a CSV with units in its header."""
 
 import csv
 import math
 
-from capfrac import mode
 from capfrac.errors import CaseError
+from capfrac.results import mode
 
 #: Columns after those of the sweep file: header -> how to find it in a run's summary.
 RESULTS = {
@@ -46,8 +47,14 @@ RESULTS = {
 
 
 def row(point, columns, state, summary, folder, error=""):
-    """The line of a point with its run folder: dict of header -> value; what a point that is not finished does not have is None."""
-    line = {"point": point.name, "state": state, **{header(name, unit): point.values[name] for name, unit in columns.items()}}
+    """The line of a point with its run folder: dict of header -> value; what a point that is not finished does not have
+    is None.
+    """
+    line = {
+        "point": point.name,
+        "state": state,
+        **{header(name, unit): point.values[name] for name, unit in columns.items()},
+    }
     if state == "finished":
         summary = {**summary, **mode.summarised(summary, folder)}
     for name, find in RESULTS.items():
@@ -66,7 +73,9 @@ def write(path, rows):
         writer = csv.DictWriter(stream, fieldnames=list(rows[0]))
         writer.writeheader()
         for line in rows:
-            writer.writerow({name: f"{value:.6g}" if isinstance(value, float) else value for name, value in line.items()})
+            writer.writerow(
+                {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in line.items()}
+            )
 
 
 def read(path, needed=()):
@@ -82,7 +91,11 @@ def read(path, needed=()):
     for name in ("point", "state", *needed):
         if not rows or name not in rows[0]:
             raise CaseError(f"{path} is not the table of a sweep, or holds no points: the column '{name}' is missing")
-    return [{name: _number(value) if name.endswith("]") else value for name, value in line.items()} for line in rows if line["state"] == "finished"]
+    return [
+        {name: _number(value) if name.endswith("]") else value for name, value in line.items()}
+        for line in rows
+        if line["state"] == "finished"
+    ]
 
 
 def _number(text):

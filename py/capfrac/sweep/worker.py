@@ -1,7 +1,8 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """One point of a sweep in a process of its own: what :mod:`capfrac.sweep.execution` starts.
 
 The process dies with the one that started it, so a sweep that is killed leaves nothing behind that would still write to
-its folder; the point's run folder is usable at any moment (see :mod:`capfrac.runfolder`).
+its folder; the point's run folder is usable at any moment (see :mod:`capfrac.run.folder`).
 """
 
 import ctypes
@@ -13,7 +14,9 @@ _PR_SET_PDEATHSIG = 1
 
 
 def dieWith(parent):
-    """Have this process killed when the process (thread) that started it ends; ``parent`` is that process's id. Linux only, as YADE."""
+    """Have this process killed when the process (thread) that started it ends; ``parent`` is that process's id. Linux
+    only, as YADE.
+    """
     ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     if os.getppid() != parent:  # it ended before the line above
         os._exit(1)
@@ -27,12 +30,14 @@ def main():
     """
     parent, folder, key, threads, base, *overrides = sys.argv[1:]
     dieWith(int(parent))
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # a sweep in the background of a script hands an ignored one on
-    from capfrac.case import readCase
+    signal.signal(
+        signal.SIGINT, signal.default_int_handler
+    )  # a sweep in the background of a script hands an ignored one on
+    from capfrac.case.read import readCase
     from capfrac.errors import CapfracError, CaseError
-    from capfrac.injection import inject
-    from capfrac.namedfiles import digests
-    from capfrac.runfolder import caseKey
+    from capfrac.io.namedfiles import digests
+    from capfrac.run.folder import caseKey
+    from capfrac.run.injection import inject
 
     try:
         case = readCase(base, overrides)
