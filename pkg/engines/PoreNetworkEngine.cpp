@@ -53,7 +53,7 @@ void PoreNetworkEngine::follow()
 {
 	guardAttributes();
 	tell();
-	network->domains = {}; // poreMode and the tolerances may have changed: update() finds them anew
+	if (prepared()) network->regroup(); // poreMode may have changed; after loading there is no partition yet
 }
 
 void PoreNetworkEngine::prepare()
