@@ -66,3 +66,9 @@ def didYouMean(name, known):
     close = difflib.get_close_matches(str(name), known, n=1)
     names = [*known][:20] + ["…"] * (len(known) > 20)
     return f"; did you mean '{close[0]}'?" if close else f"; known: {', '.join(names)}"
+
+
+def exactText(value, form=".15g"):
+    """A number as part of a name, as ``form`` writes it where that is exact: different numbers have different names."""
+    text = format(float(value), form)
+    return text if float(text) == value else repr(float(value))

@@ -16,9 +16,8 @@ from capfrac.errors import CaseError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
-from capfrac.run.folder import exactText
 from capfrac.scene import sediment
-from capfrac.values import isNotNegative, isPositive, shown
+from capfrac.values import exactText, isNotNegative, isPositive, shown
 
 #: Share of the largest deviator up to which the moduli are taken [-]: before grains slide on a large scale.
 ELASTIC_SHARE = 0.25

@@ -18,9 +18,8 @@ import numpy as np
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.run import LabRun
-from capfrac.run.folder import exactText
 from capfrac.scene import sediment
-from capfrac.values import isPositive, shown
+from capfrac.values import exactText, isPositive, shown
 
 #: Strain at which a compaction towards a stress gives up [-].
 LARGEST_STRAIN = 0.45

@@ -12,7 +12,9 @@ import numpy as np
 
 from capfrac.lab.figures import CYCLE, tidy
 from capfrac.lab.profiles import pressureProfile
-from capfrac.plot.figures import COLOURS, newFigure, quantity, saveFigure
+from capfrac.plot.painter import COLOURS
+from capfrac.plot.sheet import newFigure, saveFigure
+from capfrac.plot.units import quantity
 from capfrac.verification.lattices import conductance, pulseProfile
 
 _HOLLOW = {"linestyle": "none", "marker": "o", "markersize": 3.5, "markerfacecolor": "white"}

@@ -21,8 +21,8 @@ from capfrac.io.tables import Column, readTable
 from capfrac.lab import compaction
 from capfrac.lab.box import INERTIAL_NUMBER
 from capfrac.lab.run import LabRun
-from capfrac.run.folder import exactText
 from capfrac.scene import sediment
+from capfrac.values import exactText
 
 #: Reported indices [-]: smallest, largest, average.
 CC_REPORTED = (0.340, 0.704, 0.568)

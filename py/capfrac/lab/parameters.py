@@ -12,7 +12,7 @@ from capfrac.case import schema
 from capfrac.case.schema import Key, notNegative, positive
 from capfrac.errors import CaseError
 from capfrac.scene import grading
-from capfrac.scene.sediment import Sediment
+from capfrac.scene.grains import Sediment
 from capfrac.values import LARGEST_SEED, MOST_GRAINS, isPositive, shown
 
 #: Condition of what belongs to radii that are uniform between two.

@@ -17,7 +17,7 @@ from capfrac.lab import (
 )
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 from capfrac.results import snapshot
-from capfrac.run.folder import exactText
+from capfrac.values import exactText
 from capfrac.verification import contacts, percolation, percolation_figures, toughness
 
 

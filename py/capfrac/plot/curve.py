@@ -8,7 +8,9 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from capfrac.errors import CaseError
-from capfrac.plot.figures import COLOURS, newFigure, prefix, putLegend, putTitle, saveFigure, saySo, titleOf
+from capfrac.plot.painter import COLOURS
+from capfrac.plot.sheet import newFigure, putLegend, putTitle, saveFigure, saySo, titleOf
+from capfrac.plot.units import prefix
 
 #: What the second and third panel can be drawn over.
 OVER = ("pressure", "time")

@@ -18,7 +18,9 @@ import math
 import numpy as np
 
 from capfrac.lab.run import LabRun
-from capfrac.plot.figures import COLOURS, newFigure, saveFigure
+from capfrac.plot.painter import COLOURS
+from capfrac.plot.sheet import newFigure, saveFigure
+from capfrac.plot.units import prefix
 from capfrac.scene import sediment
 
 #: Largest overlap of the paths over the smallest radius [-]. An overlap is a difference of positions of the size of the
@@ -337,7 +339,4 @@ def _drawPanel(axes, found, name, kind):
 
 def _scaleOf(values, unit):
     """The power of a thousand to write ``values`` with, and its unit."""
-    prefixes = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
-    largest = float(np.max(np.abs(values)))
-    power = min(max(3 * math.floor(math.log10(largest) / 3 + 1e-12), -12), 9) if largest > 0 else 0
-    return 10.0**power, f"{prefixes[power]}{unit}"
+    return prefix(float(np.max(np.abs(values))), unit, -12, 9)

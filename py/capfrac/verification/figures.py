@@ -4,7 +4,8 @@
 import numpy as np
 
 from capfrac.lab.figures import CYCLE, pressureUnit, tidy
-from capfrac.plot.figures import COLOURS, newFigure, saveFigure
+from capfrac.plot.painter import COLOURS
+from capfrac.plot.sheet import newFigure, saveFigure
 
 
 def drawUndrained(result, path):
@@ -14,7 +15,7 @@ def drawUndrained(result, path):
     panels = [(result, "rigid grains")] + (
         [(result["compressible"], "grains that water compresses")] if "compressible" in result else []
     )
-    power, unit = pressureUnit(max(result["total"]))
+    pascal, unit = pressureUnit(max(result["total"]))
     with newFigure((5.2 if len(panels) == 1 else 8.6, 3.5)) as figure:
         for number, (one, title) in enumerate(panels):
             axes = figure.add_axes(
@@ -37,7 +38,7 @@ def drawUndrained(result, path):
                 )
                 axes.plot(
                     100 * np.array(one["strain"]),
-                    np.array(one[name]) / 10.0**power,
+                    np.array(one[name]) / pascal,
                     color=colour,
                     label=label,
                     **line,
@@ -46,7 +47,7 @@ def drawUndrained(result, path):
                 xlabel="vertical strain [%]",
                 ylabel=f"stress [{unit}]" if number == 0 else "",
                 xlim=(0, None),
-                ylim=(0, 1.05 * max(result["total"]) / 10.0**power),
+                ylim=(0, 1.05 * max(result["total"]) / pascal),
             )
             if len(panels) > 1:
                 axes.set_title(title, fontsize=9)

@@ -19,9 +19,8 @@ import numpy as np
 from capfrac.errors import CaseError
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
-from capfrac.run.folder import exactText
 from capfrac.scene import sediment
-from capfrac.values import isPositive, shown
+from capfrac.values import exactText, isPositive, shown
 
 #: Rows of a run.
 ROWS = 200

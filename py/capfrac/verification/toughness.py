@@ -26,7 +26,8 @@ import numpy as np
 
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
-from capfrac.plot.figures import COLOURS, newFigure, saveFigure
+from capfrac.plot.painter import COLOURS
+from capfrac.plot.sheet import newFigure, saveFigure
 from capfrac.run import injection
 from capfrac.scene import sediment
 from capfrac.theory.lattice_crack import finiteWidth, tipForces

@@ -6,7 +6,6 @@ does both for a run folder and draws the pictures. Lengths are in metres, angles
 in [0, 180)), thickness 1 m.
 """
 
-import csv
 import json
 import math
 from pathlib import Path
@@ -14,6 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from capfrac.errors import CaseError, RunFolderError
+from capfrac.io.csvfiles import readRows, writeColumns
 from capfrac.plot import fracture as figures
 from capfrac.results import snapshot
 from capfrac.results.fracture import graph, orientation, stress, throats
@@ -178,8 +178,7 @@ def readEvents(path, integers=()):
     :class:`RunFolderError` when it cannot be read.
     """
     try:
-        with open(path, newline="", encoding="utf-8") as stream:
-            rows = list(csv.DictReader(stream))
+        rows = readRows(path)
         numeric = ("time [s]", "capillaryPressure [Pa]", "x [m]", "y [m]")
         return {
             **{name: [float(row[name]) for row in rows] for name in numeric},
@@ -217,7 +216,7 @@ def reportRun(path, openingThreshold=0.01, write=None, pictures=True):
     write("fracture.json", lambda target: target.write_text(text, encoding="utf-8"))
     numbers, found = measured[moment]
     advance = tipAdvance(found, readEvents(path / "events.csv"))
-    write("fracture.csv", lambda target: _writeColumns(target, advance))
+    write("fracture.csv", lambda target: writeColumns(target, advance))
     if pictures:
         _drawRun(path, shots, moment, found, advance, write)
     return {
@@ -237,13 +236,6 @@ def _drawRun(path, shots, moment, found, advance, write):
     fields.sort(key=lambda field: field[0].time)  # the first throat that opens may do so after the gas has come through
     if fields:
         write("stress.png", lambda target: figures.drawStress(fields[-2:], target))
-
-
-def _writeColumns(target, columns):
-    with open(target, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream)
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values()))
 
 
 def orientationOfRuns(summaries, kind="extent"):
