@@ -8,14 +8,14 @@ from capfrac import environment
 from capfrac.case import schema
 from capfrac.errors import CaseError
 from capfrac.io import namedfiles, tomlfiles
-from capfrac.lab import parameters, reports
+from capfrac.lab import fluid_reports, parameters, reports
 from capfrac.lab.run import LabRun
 from capfrac.run.folder import readSummary
 from capfrac.run.progress import Progress
 from capfrac.scene.packing import BOULDER
-from capfrac.verification import reports as waterReports
+from capfrac.verification import reports as exact
 
-_REPORTS = {**reports.REPORTS, **waterReports.REPORTS}
+_REPORTS = {**reports.REPORTS, **fluid_reports.REPORTS, **exact.REPORTS}
 #: What each test is, in a line.
 TITLES = {
     "settle": "sedimentation: pictures of it and its time step (Figures 7 and 8)",

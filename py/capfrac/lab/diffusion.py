@@ -34,7 +34,7 @@ from capfrac.lab.profiles import HALF_TIME, PROFILE_TIMES, profileAt, profileErr
 from capfrac.lab.run import LabRun
 from capfrac.lab.transient import steadyFlow, stepEnds, transient
 from capfrac.scene import sediment
-from capfrac.verification.handmade import requirePositive
+from capfrac.values import requirePositive
 
 
 def diffusion(

@@ -21,7 +21,7 @@ from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
 from capfrac.results import snapshot
 from capfrac.scene import sediment
-from capfrac.verification.handmade import requirePositive
+from capfrac.values import requirePositive
 
 #: The corners: name -> (Ca, M). The first three are those that an independent lattice-Boltzmann code documents as its
 #: examples.

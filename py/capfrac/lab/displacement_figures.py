@@ -5,7 +5,7 @@ import numpy as np
 
 from capfrac.plot.painter import COLOURS, drawCells, drawDisks
 from capfrac.plot.sheet import newFigure, saveFigure
-from capfrac.results.snapshot import GAS
+from capfrac.results.moment import GAS
 
 
 def drawDisplacement(found, snapshots, path):

@@ -13,7 +13,7 @@ from matplotlib.patches import Rectangle
 import numpy as np
 
 from capfrac.plot.units import quantity
-from capfrac.results.snapshot import WALL_AXIS, WALL_NAMES
+from capfrac.results.moment import WALL_AXIS, WALL_NAMES
 
 COLOURS = {
     "grain": "#f3e8c3",

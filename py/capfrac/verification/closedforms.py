@@ -16,10 +16,13 @@ import math
 
 import numpy as np
 
+from capfrac.lab.fluid import advance, fill, poresOf
+from capfrac.lab.orders import orders
 from capfrac.lab.run import LabRun
+from capfrac.values import requirePositive
 from capfrac.verification import lattices, units
-from capfrac.verification.handmade import advance, besideColumn, column, fill, poresOf, requirePositive
-from capfrac.verification.lattices import conductance, orders
+from capfrac.verification.handmade import besideColumn, column
+from capfrac.verification.lattices import conductance
 
 #: Numbers of time steps in the decay time of the two pores.
 STEPS = (5, 10, 20, 40, 80, 160)

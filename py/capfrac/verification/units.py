@@ -23,9 +23,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from capfrac.lab.compaction import prepareSample
+from capfrac.lab.fluid import alone
 from capfrac.lab.run import LabRun
 from capfrac.scene import sediment
-from capfrac.verification.handmade import alone, requirePositive, triangularLattice
+from capfrac.values import requirePositive
+from capfrac.verification.handmade import triangularLattice
 
 #: Vertical strain of the compressions [-], steps of time on the way, and rows of the curves.
 STRAIN, STEPS, ROWS = 1e-3, 1000, 20

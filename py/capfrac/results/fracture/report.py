@@ -16,7 +16,7 @@ from capfrac.errors import CaseError, RunFolderError
 from capfrac.io.csvfiles import readRows, writeColumns
 from capfrac.plot import fracture as figures
 from capfrac.results import snapshot
-from capfrac.results.fracture import graph, orientation, stress, throats
+from capfrac.results.fracture import graph, inlet, orientation, stress, throats
 
 #: Distances from the inlet at which branches are counted, in mean grain diameters [-].
 DISTANCES = (2.0, 4.0, 6.0, 8.0, 10.0, 12.0)
@@ -92,7 +92,7 @@ def _extent(shot, found):
     """Where the cracked throats with gas lie as seen from the middle of the inlet: directions [degrees] and squared
     distances [m^2].
     """
-    middle = graph.inletMiddle(shot)
+    middle = inlet.inletMiddle(shot)
     if middle is None:
         return np.array([]), np.array([])
     away = shot.endsOf(shot.throatIds[found.inGas & found.cracked]).mean(axis=1) - middle
