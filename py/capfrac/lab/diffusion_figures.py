@@ -11,7 +11,7 @@ from capfrac.lab.figures import CYCLE, tidy
 from capfrac.lab.profiles import pressureProfile
 from capfrac.plot.painter import COLOURS
 from capfrac.plot.sheet import newFigure, saveFigure
-from capfrac.plot.units import quantity
+from capfrac.units import quantity
 
 _HOLLOW = {"linestyle": "none", "marker": "o", "markersize": 3.5, "markerfacecolor": "white"}
 

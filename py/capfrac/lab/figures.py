@@ -12,7 +12,7 @@ from capfrac.lab import hydrate_ridge
 from capfrac.plot import figures
 from capfrac.plot.painter import COLOURS
 from capfrac.plot.sheet import newFigure, saveFigure
-from capfrac.plot.units import prefix, quantity
+from capfrac.units import prefix, quantity
 
 #: One colour for each curve of a picture, then over again.
 CYCLE = (

@@ -8,7 +8,7 @@ import numpy as np
 from capfrac.lab.figures import BAND, CYCLE, pressureUnit, tidy
 from capfrac.plot.painter import COLOURS
 from capfrac.plot.sheet import newFigure, saveFigure
-from capfrac.plot.units import quantity
+from capfrac.units import quantity
 
 
 def drawBiaxial(result, path, title=None):

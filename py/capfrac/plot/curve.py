@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator, NullFormatter
 from capfrac.errors import CaseError
 from capfrac.plot.painter import COLOURS
 from capfrac.plot.sheet import newFigure, putLegend, putTitle, saveFigure, saySo, titleOf
-from capfrac.plot.units import prefix
+from capfrac.units import prefix
 
 #: What the second and third panel can be drawn over.
 OVER = ("pressure", "time")

@@ -24,7 +24,7 @@ from capfrac.plot.painter import (
     gasDots,
 )
 from capfrac.plot.sheet import newFigure, saveFigure, titleOf
-from capfrac.plot.units import prefix, quantity
+from capfrac.units import prefix, quantity
 
 __all__ = [
     "COLOURS",

@@ -10,8 +10,8 @@ from capfrac.plot.painter import drawScaleBar, fitSample
 from capfrac.plot.rose import drawRose
 from capfrac.plot.sheet import newFigure, saveFigure, titleOf
 from capfrac.plot.stress import drawStress
-from capfrac.plot.units import prefix, quantity
 from capfrac.results.fracture import orientation
+from capfrac.units import prefix, quantity
 
 __all__ = ["branchText", "drawCrack", "drawFracture", "drawFractures", "drawRose", "drawStress"]
 

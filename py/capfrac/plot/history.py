@@ -8,8 +8,8 @@ from matplotlib.ticker import MaxNLocator
 
 from capfrac.plot.painter import COLOURS
 from capfrac.plot.sheet import newFigure, putLegend, putTitle, saveFigure, saySo, titleOf
-from capfrac.plot.units import prefix
 from capfrac.results.course import courseToTheEnd, levelsToTheEnd
+from capfrac.units import prefix
 
 __all__ = ["courseToTheEnd", "drawHistory", "levelsToTheEnd"]
 

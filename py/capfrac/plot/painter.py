@@ -12,8 +12,8 @@ from matplotlib.patches import Circle
 from matplotlib.patches import Rectangle
 import numpy as np
 
-from capfrac.plot.units import quantity
 from capfrac.results.moment import WALL_AXIS, WALL_NAMES
+from capfrac.units import quantity
 
 COLOURS = {
     "grain": "#f3e8c3",

@@ -10,8 +10,8 @@ import numpy as np
 from capfrac.plot.figures import stateOf
 from capfrac.plot.painter import COLOURS, drawCells, fitSample
 from capfrac.plot.sheet import newFigure, saveFigure, titleOf
-from capfrac.plot.units import prefix
 from capfrac.results.fracture import stress
+from capfrac.units import prefix
 
 #: Colours of stress: brown compression and green tension, as the contact forces.
 STRESSES = "BrBG_r"

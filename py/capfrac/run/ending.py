@@ -7,8 +7,8 @@ Pressures are capillary, p_g - p_w [Pa].
 
 import math
 
-from capfrac.plot.units import quantity
 from capfrac.scene.bodies import boxSize
+from capfrac.units import quantity
 
 
 def isRamped(case):

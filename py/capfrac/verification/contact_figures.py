@@ -5,7 +5,7 @@ import numpy as np
 
 from capfrac.plot.painter import COLOURS
 from capfrac.plot.sheet import newFigure, saveFigure
-from capfrac.plot.units import prefix
+from capfrac.units import prefix
 from capfrac.verification.contacts import _CLOSED_FORM
 
 _PANELS = (
