@@ -16,12 +16,12 @@ import capfrac
 
 capfrac.load_engines()
 
-from yade import O  # noqa: E402  (YADE must be found by capfrac first)
+from yade import O  # YADE must be found by capfrac first
 
-from capfrac import sediment  # noqa: E402
-from capfrac.scene import filling  # noqa: E402
+from capfrac import sediment
+from capfrac.scene import filling
 
-from settled import buildSettled, same  # noqa: E402
+from settled import buildSettled, same
 
 #: By how much of its radius ``--nudge`` moves a grain [-]: some thousand roundings.
 NUDGE = 1e-12

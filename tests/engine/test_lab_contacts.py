@@ -72,9 +72,8 @@ def test_bondsBreakAtTheirStrength(values):
     for name in ("tension", "shear", "recontact"):
         found = result[name]
         if sample.shearStiffness == 0 and name != "tension":
-            assert math.isnan(found["brokeAt"]) and all(
-                found["table"]["bonded"]
-            )  # there is no shear that could break it
+            # there is no shear that could break it
+            assert math.isnan(found["brokeAt"]) and all(found["table"]["bonded"])
             continue
         assert found["borne"] == pytest.approx(found["strength"] * (1 - 1e-9), rel=1e-11), name
         assert found["brokeAt"] == pytest.approx(found["strength"] * (1 + 1e-9), rel=1e-11), name

@@ -63,9 +63,8 @@ def test_twoPoresDecayAtTheRateOfTheirThroats(found):
     solid = 0.5 * math.pi * (1 + 1.5**2 + 1) * 1e-6
     volumes = [3.6e-3 * 7e-3 - solid, 8.4e-3 * 7e-3 - solid]
     assert pores["volumes"] == pytest.approx(volumes, rel=1e-13) and pores["volumeError"] < 1e-13
-    assert pores["rate"] == pytest.approx(
-        conductance * KF * (1 / volumes[0] + 1 / volumes[1]), rel=1e-7
-    )  # 2e5 slices, (1/n)^1.5 at the poles
+    # 2e5 slices, (1/n)^1.5 at the poles
+    assert pores["rate"] == pytest.approx(conductance * KF * (1 / volumes[0] + 1 / volumes[1]), rel=1e-7)
     for scheme in ("implicit", "explicit"):
         # A pressure is K_f (m/V - 1): some K_f 2^-53 of round-off against 1 kPa in each of 160 steps, 1e-12 each;
         # random, but bounded by the sum.

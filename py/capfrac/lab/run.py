@@ -203,9 +203,8 @@ class LabRun(Resumable):
         (self.folder.path / "state.json").unlink(missing_ok=True)
         scenes = self.folder.path / "scenes"
         if scenes.is_dir():
-            for entry in list(
-                scenes.glob("*.yade.gz")
-            ):  # those of a process that was killed as it wrote or cleared them, too
+            # those of a process that was killed as it wrote or cleared them, too
+            for entry in list(scenes.glob("*.yade.gz")):
                 entry.unlink()
             if not any(scenes.iterdir()):
                 scenes.rmdir()

@@ -204,9 +204,8 @@ def _legend(snapshots, points, forces, bonds, dots, scales, alike):
         round1 = float(f"{scales[0]:.1g}")
         force = {"linewidth": FORCE_WIDTH * radius * round1 / scales[0], "solid_capstyle": "butt"}
         for name, sign in (("compression", 1), ("tension", -1)):
-            if any(
-                np.any(sign * t.normalForce > 0.02 * scale) for t, scale in zip(snapshots, scales)
-            ):  # else no one could see it
+            # else no one could see it
+            if any(np.any(sign * t.normalForce > 0.02 * scale) for t, scale in zip(snapshots, scales)):
                 handles.append(
                     Line2D(
                         [],

@@ -33,8 +33,10 @@ from capfrac.errors import CaseError
 from capfrac.io import tomlfiles
 from capfrac.sweep.formulas import Formula
 from capfrac.sweep.points import CASE_KEYS, SEED, resolvePoints
-from capfrac.sweep.points import Point, refinementLevels  # noqa: F401 (part of this module)
+from capfrac.sweep.points import Point, refinementLevels
 from capfrac.values import asFloat, didYouMean, shown
+
+__all__ = ["Point", "Sweep", "readSweep", "refinementLevels", "resolveSweep", "shippedSweeps"]
 
 #: More points than this are a mistake in a list rather than a plan.
 MAX_POINTS = 100_000

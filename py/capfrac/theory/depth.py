@@ -71,9 +71,8 @@ def methaneDensity(pressure, temperature):
                 b[index] ** 3 + b[index] ** 2 - a[index] * b[index],
             ]
         )
-        z[index] = max(
-            root.real for root in roots if abs(root.imag) < 1e-9
-        )  # one real root above the critical temperature
+        # one real root above the critical temperature
+        z[index] = max(root.real for root in roots if abs(root.imag) < 1e-9)
     return pressure * METHANE / (z * R * temperature)
 
 

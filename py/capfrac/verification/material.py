@@ -60,9 +60,8 @@ def _stiffness(wall, load, steps=4000):
     )
     axis = 0 if wall == "right" else 1
     before, length = _settleWaves(), sediment.boxSize()[axis]
-    strain = (
-        load / sediment.grainBodies()[0].material.normalStiffness
-    )  # stiffnesses are of the order of k_n over the thickness, 1 m
+    # stiffnesses are of the order of k_n over the thickness, 1 m
+    strain = load / sediment.grainBodies()[0].material.normalStiffness
     servo.driveVelocity = strain * length / (steps * O.dt)
     sediment.advance(steps)
     servo.driveVelocity = 0.0
