@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// Arrays from Python through the buffer protocol, checked.
@@ -36,24 +37,26 @@ public:
 		}
 		const std::string format = view.format ? view.format : "B";
 		if (view.ndim == 1 && view.itemsize == sizeof(Number) && format.size() == 1
-		    && std::string(BufferFormat<Number>::codes).find(format) != std::string::npos)
+		        && std::string(BufferFormat<Number>::codes).find(format) != std::string::npos)
 			return;
 		const std::string found = std::to_string(view.ndim) + "-dimensional array of '" + format + "'";
 		PyBuffer_Release(&view);
 		refuseKind(found);
 	}
 	~Buffer() { PyBuffer_Release(&view); }
-	Buffer(const Buffer&)            = delete;
+	Buffer(const Buffer&) = delete;
 	Buffer& operator=(const Buffer&) = delete;
 
-	std::size_t   size() const { return static_cast<std::size_t>(view.len) / sizeof(Number); }
+	std::size_t size() const { return static_cast<std::size_t>(view.len) / sizeof(Number); }
 	const Number* begin() const { return static_cast<const Number*>(view.buf); }
 	const Number* end() const { return begin() + size(); }
-	Number        operator[](std::size_t k) const { return begin()[k]; }
+	Number operator[](std::size_t k) const { return begin()[k]; }
 
 	void requireSize(std::size_t n, const std::string& allowed) const
 	{
-		if (size() != n) throw std::invalid_argument(name + ": " + std::to_string(size()) + " values, allowed: " + std::to_string(n) + ", " + allowed);
+		if (size() != n)
+			throw std::invalid_argument(name + ": " + std::to_string(size())
+			        + " values, allowed: " + std::to_string(n) + ", " + allowed);
 	}
 	[[noreturn]] void refuse(std::size_t k, const std::string& allowed) const
 	{
@@ -65,12 +68,15 @@ public:
 private:
 	[[noreturn]] void refuseKind(const std::string& found) const
 	{
-		PyErr_SetString(PyExc_TypeError, (name + ": " + found + ", allowed: a one-dimensional contiguous array of " + BufferFormat<Number>::name).c_str());
+		PyErr_SetString(PyExc_TypeError,
+		        (name + ": " + found + ", allowed: a one-dimensional contiguous array of "
+		                + BufferFormat<Number>::name)
+		                .c_str());
 		throw boost::python::error_already_set();
 	}
 
 	std::string name;
-	Py_buffer   view {};
+	Py_buffer view {};
 };
 
 } // namespace capfrac

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "DiskMat.hpp"
 #include "Attributes.hpp"
 
@@ -7,7 +8,8 @@ YADE_PLUGIN((DiskMat)(WallMat));
 
 void DiskMat::guardAttributes()
 {
-	accepted.guard(std::tie(normalStiffness, shearStiffness, tensileStrength, shearStrength, capillaryStrength), [this] {
+	accepted.guard(std::tie(normalStiffness, shearStiffness, tensileStrength, shearStrength, capillaryStrength),
+	        [this] {
 		capfrac::requirePositive("DiskMat.normalStiffness [N/m]", normalStiffness);
 		capfrac::requireNotNegative("DiskMat.shearStiffness [N/m]", shearStiffness);
 		capfrac::requireNotNegative("DiskMat.tensileStrength [Pa]", tensileStrength);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "EngineErrors.hpp"
 
 #include <lib/base/Logging.hpp>
@@ -20,7 +21,7 @@ namespace {
 	/// How long O.run() needs at most to look at the run that it has started.
 	constexpr auto lookingTime = std::chrono::milliseconds(100);
 
-	std::mutex  pending;
+	std::mutex pending;
 	std::string pendingError;
 
 	int raisePending(void*)
@@ -34,7 +35,7 @@ namespace {
 	{
 		LOG_FATAL(error);
 		const std::lock_guard<std::mutex> lock(pending);
-		pendingError     = error;
+		pendingError = error;
 		scene.stopAtIter = scene.iter + 1;
 		Py_AddPendingCall(raisePending, nullptr);
 	}

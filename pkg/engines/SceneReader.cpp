@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "SceneReader.hpp"
 
 #include <pkg/common/Sphere.hpp>
@@ -19,12 +20,14 @@ namespace {
 	void checkNotPeriodic(const Scene& scene)
 	{
 		if (scene.isPeriodic)
-			throw std::runtime_error("the scene is periodic; allowed: a box of four walls in a scene that is not, O.periodic = False");
+			throw std::runtime_error("the scene is periodic; allowed: a box of four walls in a scene that "
+			                         "is not, O.periodic = False");
 	}
 
 	void checkGrain(const Body& body)
 	{
-		if (body.isClumpMember() || body.isClump()) refuseBody(body.id, "is a clump or a member of one; the network takes single disks only");
+		if (body.isClumpMember() || body.isClump())
+			refuseBody(body.id, "is a clump or a member of one; the network takes single disks only");
 		const unsigned planar = State::DOF_Z | State::DOF_RX | State::DOF_RY;
 		if ((body.state->blockedDOFs & planar) != planar)
 			refuseBody(body.id, "can leave the plane of the model; set its state.blockedDOFs = 'zXY'");
@@ -43,7 +46,7 @@ std::string whenInLoop(const Scene& scene)
 void SceneReader::find(const Scene& from)
 {
 	checkNotPeriodic(from);
-	std::vector<Body::id_t>                 foundGrains;
+	std::vector<Body::id_t> foundGrains;
 	std::array<std::vector<const Body*>, 2> foundWalls;
 	for (const auto& body : *from.bodies) {
 		if (!body) continue;
@@ -52,25 +55,29 @@ void SceneReader::find(const Scene& from)
 			checkGrain(*body);
 			foundGrains.push_back(body->id);
 		} else if (const auto* wall = dynamic_cast<const Wall*>(body->shape.get())) {
-			if (wall->axis > 1) refuseBody(body->id, "is a wall of axis 2; the box has walls of axis 0 and 1 only");
+			if (wall->axis > 1)
+				refuseBody(body->id, "is a wall of axis 2; the box has walls of axis 0 and 1 only");
 			foundWalls[wall->axis].push_back(body.get());
 		} else
-			refuseBody(body->id, "has the shape " + (body->shape ? body->shape->getClassName() : std::string("none"))
-			                   + "; allowed: Sphere (a grain) and Wall (one of the four sides of the box)");
+			refuseBody(body->id,
+			        "has the shape " + (body->shape ? body->shape->getClassName() : std::string("none"))
+			                + "; allowed: Sphere (a grain) and Wall (one of the four sides of the box)");
 	}
-	if (foundGrains.empty()) throw std::runtime_error("the scene holds no grains: add bodies with a Sphere shape first");
+	if (foundGrains.empty())
+		throw std::runtime_error("the scene holds no grains: add bodies with a Sphere shape first");
 	for (int axis = 0; axis < 2; ++axis) {
 		auto& walls = foundWalls[axis];
 		if (walls.size() != 2)
-			throw std::runtime_error("the scene holds " + std::to_string(walls.size()) + " walls of axis " + std::to_string(axis)
-			                         + "; the box needs two of axis 0 and two of axis 1");
-		std::sort(walls.begin(), walls.end(), [axis](const Body* a, const Body* b) { return a->state->pos[axis] < b->state->pos[axis]; });
-		wallIds[2 * axis]     = walls[0]->id;
+			throw std::runtime_error("the scene holds " + std::to_string(walls.size()) + " walls of axis "
+			        + std::to_string(axis) + "; the box needs two of axis 0 and two of axis 1");
+		std::sort(walls.begin(), walls.end(),
+		        [axis](const Body* a, const Body* b) { return a->state->pos[axis] < b->state->pos[axis]; });
+		wallIds[2 * axis] = walls[0]->id;
 		wallIds[2 * axis + 1] = walls[1]->id;
 	}
-	grainIds    = std::move(foundGrains);
-	scene       = &from;
-	nBodies     = from.bodies->size();
+	grainIds = std::move(foundGrains);
+	scene = &from;
+	nBodies = from.bodies->size();
 	read(from);
 }
 
@@ -81,13 +88,14 @@ void SceneReader::read(const Scene& from)
 		const auto& body = (*from.bodies)[grainIds[i]];
 		if (!body) refuseBody(grainIds[i], "was a grain of the network and is gone");
 		const Vector3r& pos = body->state->pos;
-		const Real      radius = static_cast<const Sphere&>(*body->shape).radius;
+		const Real radius = static_cast<const Sphere&>(*body->shape).radius;
 		// Contacts are three-dimensional, the network is not: off the plane they would disagree about gaps.
 		// (A radius that is no number is for checkGrains to name.)
 		const Real plane = (*from.bodies)[grainIds[0]]->state->pos[2];
 		if (math::abs(pos[2] - plane) > 1e-9 * math::abs(radius)) {
 			std::ostringstream text;
-			text << "is off the plane of the model: z = " << pos[2] << " m, the first grain has z = " << plane << " m";
+			text << "is off the plane of the model: z = " << pos[2]
+			     << " m, the first grain has z = " << plane << " m";
 			refuseBody(grainIds[i], text.str());
 		}
 		grains[i] = { { pos[0], pos[1] }, radius };
@@ -113,6 +121,19 @@ void SceneReader::addForces(Scene& to, const capfrac::FluidForces& forces, Real 
 		to.forces.addForce(grainIds[i], thickness * Vector3r(forces.grains[i].x, forces.grains[i].y, 0));
 	for (int w = 0; w < capfrac::nWalls; ++w)
 		to.forces.addForce(wallIds[w], thickness * Vector3r(forces.walls[w].x, forces.walls[w].y, 0));
+}
+
+void SceneReader::grow(Scene& to, const std::vector<Real>& growth) const
+{
+	for (std::size_t i = 0; i < growth.size(); ++i)
+		static_cast<Sphere&>(*(*to.bodies)[grainIds[i]]->shape).radius = grains[i].radius + growth[i];
+}
+
+std::vector<int> SceneReader::ids() const
+{
+	std::vector<int> all(grainIds.begin(), grainIds.end());
+	all.insert(all.end(), wallIds.begin(), wallIds.end());
+	return all;
 }
 
 int SceneReader::vertexOf(Body::id_t id) const

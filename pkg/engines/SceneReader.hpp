@@ -1,9 +1,13 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 #include "../geometry/VoidGeometry.hpp"
 
 #include <core/Body.hpp>
 #include <core/Scene.hpp>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <string>
 #include <vector>
@@ -16,10 +20,10 @@ namespace yade {
 /// are the four bodies with a Wall shape, two of axis 0 and two of axis 1. Anything else in the scene is
 /// refused by its id: a body that takes room but is not in the network would break every volume balance.
 struct SceneReader {
-	std::vector<Body::id_t>                   grainIds; ///< vertex -> body
-	std::array<Body::id_t, capfrac::nWalls>   wallIds {}; ///< in the order of capfrac::Wall
-	std::vector<capfrac::Disk>                grains;
-	capfrac::Box                              box;
+	std::vector<Body::id_t> grainIds;                   ///< vertex -> body
+	std::array<Body::id_t, capfrac::nWalls> wallIds {}; ///< in the order of capfrac::Wall
+	std::vector<capfrac::Disk> grains;
+	capfrac::Box box;
 
 	/// Finds grains and walls anew. Throws std::runtime_error naming the body at fault.
 	void find(const Scene& from);
@@ -29,6 +33,8 @@ struct SceneReader {
 	void readWalls(const Scene& from);
 	/// Adds forces [N/m, times `thickness`] to grains and walls.
 	void addForces(Scene& to, const capfrac::FluidForces& forces, Real thickness) const;
+	/// Lets the grains grow by so much [m] (empty: not at all), radii being those that were read.
+	void grow(Scene& to, const std::vector<Real>& growth) const;
 	/// The vertex of a body; -1 where it is none.
 	int vertexOf(Body::id_t id) const;
 	/// The body of a vertex of the triangulation (grain or wall).
@@ -37,6 +43,15 @@ struct SceneReader {
 	const Scene* scene = nullptr;
 	/// Number of bodies when find() ran, to notice a scene that changed.
 	std::size_t nBodies = 0;
+	/// The bodies of all vertices, grains first, then walls.
+	std::vector<int> ids() const;
+
+	template <class Archive> void serialize(Archive& archive, unsigned)
+	{
+		archive& boost::serialization::make_nvp("grainIds", grainIds);
+		archive& boost::serialization::make_nvp("wallIds", wallIds);
+		archive& boost::serialization::make_nvp("nBodies", nBodies);
+	}
 };
 
 /// "at time t = … s, iteration …": the beginning of every message from inside the loop.

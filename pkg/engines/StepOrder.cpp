@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// Where engines stand in a step, and what that means for those that look at forces.
 
 #include "StepOrder.hpp"
@@ -22,10 +23,8 @@ namespace {
 	enum Kind { resetter, loop, forces, fluid, servo, integrator, other };
 
 	/// Engines of YADE that add forces to bodies, by name: not every YADE is built with all of them.
-	const std::set<std::string> forceEngines { "ForceEngine",      "InterpolatingDirectedForceEngine",
-		                                   "RadialForceEngine", "DragEngine",
-		                                   "LinearDragEngine",  "HarmonicForceEngine",
-		                                   "HydroForceEngine" };
+	const std::set<std::string> forceEngines { "ForceEngine", "InterpolatingDirectedForceEngine",
+		"RadialForceEngine", "DragEngine", "LinearDragEngine", "HarmonicForceEngine", "HydroForceEngine" };
 
 	template <class... Classes> bool isOne(const Engine& engine)
 	{
@@ -57,9 +56,9 @@ namespace {
 
 	[[noreturn]] void refuse(const Engine& asking, const std::string& finding)
 	{
-		throw std::runtime_error(
-		        asking.getClassName() + " " + finding
-		        + "; allowed in O.engines, in this order: ForceResetter, collider, InteractionLoop, engines that add forces "
+		throw std::runtime_error(asking.getClassName() + " " + finding
+		        + "; allowed in O.engines, in this order: ForceResetter, collider, InteractionLoop, engines "
+		          "that add forces "
 		          "(MeniscusCohesionEngine …), one fluid engine, WallServoEngine, NewtonIntegrator");
 	}
 
@@ -88,24 +87,25 @@ namespace {
 
 	struct Placed {
 		const Engine* engine;
-		Kind          kind;
+		Kind kind;
 	};
 
 	void checkNumber(const Engine& asking, const std::vector<Placed>& live, Kind kind)
 	{
 		std::string names;
-		int         number = 0;
+		int number = 0;
 		for (const auto& placed : live)
 			if (placed.kind == kind) names += (number++ ? ", " : "") + placed.engine->getClassName();
 		if (number < 2) return;
 		refuse(asking,
-		       "meets " + std::to_string(number) + " engines where one is allowed (" + names
-		               + "); take one out of O.engines or set its dead = True");
+		        "meets " + std::to_string(number) + " engines where one is allowed (" + names
+		                + "); take one out of O.engines or set its dead = True");
 	}
 
 	bool holds(const std::vector<Placed>& live, Kind kind)
 	{
-		return std::any_of(live.begin(), live.end(), [kind](const Placed& placed) { return placed.kind == kind; });
+		return std::any_of(
+		        live.begin(), live.end(), [kind](const Placed& placed) { return placed.kind == kind; });
 	}
 
 	void checkIntegrator(const Scene& scene, const Engine& asking, const std::vector<Placed>& live)
@@ -139,12 +139,14 @@ void checkStepOrder(const Scene& scene, const Engine& asking)
 	std::vector<Placed> live;
 	for (const auto* engine : liveEngines(scene))
 		live.push_back({ engine, kindOf(*engine) });
-	const auto place = std::find_if(live.begin(), live.end(), [&](const Placed& placed) { return placed.engine == &asking; });
+	const auto place =
+	        std::find_if(live.begin(), live.end(), [&](const Placed& placed) { return placed.engine == &asking; });
 	if (place == live.end()) return;
 	const auto listed = [&asking](const auto& engine) { return engine.get() == &asking; };
 	if (std::none_of(scene.engines.begin(), scene.engines.end(), listed))
 		refuse(asking,
-		       "stands within a ParallelEngine, beside engines whose forces it needs; it has to stand in O.engines itself");
+		        "stands within a ParallelEngine, beside engines whose forces it needs; it has to stand in "
+		        "O.engines itself");
 	const Kind kind = place->kind;
 	if (kind != forces) checkNumber(asking, live, kind);
 	checkIntegrator(scene, asking, live);

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "WallServoEngine.hpp"
 #include "Attributes.hpp"
 #include "EngineErrors.hpp"
 #include "PoreNetworkEngine.hpp"
 #include "StepOrder.hpp"
-#include "Walls.hpp"
+#include "../network/Boundary.hpp"
 
 #include <core/Omega.hpp>
 #include <pkg/common/NormShearPhys.hpp>
@@ -26,21 +27,23 @@ void WallServoEngine::checkAttributes() const
 	requireFinite("WallServoEngine.driveVelocity [m/s]", driveVelocity);
 	if (!math::isnan(meanStress)) requirePositive("WallServoEngine.meanStress [Pa]", meanStress);
 	for (const auto& name : fixedWalls)
-		wallFromName("WallServoEngine.fixedWalls", name);
+		capfrac::wallFromName("WallServoEngine.fixedWalls", name);
 	for (const auto& name : drivenWalls)
-		wallFromName("WallServoEngine.drivenWalls", name);
+		capfrac::wallFromName("WallServoEngine.drivenWalls", name);
 }
 
 void WallServoEngine::guardAttributes()
 {
-	accepted.guard(
-	        std::tie(stressX, stressY, fixedWalls, drivenWalls, driveVelocity, meanStress, gain, maxVelocity, thickness), [this] { checkAttributes(); });
+	accepted.guard(std::tie(stressX, stressY, fixedWalls, drivenWalls, driveVelocity, meanStress, gain, maxVelocity,
+	                       thickness),
+	        [this] { checkAttributes(); });
 }
 
 WallServoEngine::Task WallServoEngine::task(int wall) const
 {
 	auto holds = [&](const std::vector<std::string>& names) {
-		return std::any_of(names.begin(), names.end(), [&](const auto& name) { return wallFromName("WallServoEngine", name) == wall; });
+		return std::any_of(names.begin(), names.end(),
+		        [&](const auto& name) { return capfrac::wallFromName("WallServoEngine", name) == wall; });
 	};
 	return holds(drivenWalls) ? Task::driven : holds(fixedWalls) ? Task::fixed : Task::stress;
 }
@@ -55,24 +58,26 @@ Real WallServoEngine::target(int wall) const
 void WallServoEngine::measure()
 {
 	try {
-		if (reader.nBodies != scene->bodies->size()) reader.find(*scene);
+		if (reader.nBodies != scene->bodies->size())
+			reader.find(*scene);
 		else
 			reader.readWalls(*scene);
 	} catch (const std::runtime_error& e) {
 		throw std::runtime_error(getClassName() + " " + whenInLoop(*scene) + e.what());
 	}
 	scene->forces.sync();
-	const auto& box  = reader.box;
-	const Real  high = math::isnan(meanStress) ? math::max(stressX, stressY) : meanStress;
-	error            = 0;
+	const auto& box = reader.box;
+	const Real high = math::isnan(meanStress) ? math::max(stressX, stressY) : meanStress;
+	error = 0;
 	for (int w = 0; w < capfrac::nWalls; ++w) {
-		const auto     outward = capfrac::Box::outward(w);
-		const Vector3r force   = scene->forces.getForce(reader.wallIds[w]);
-		const Real     length  = w < 2 ? box.height() : box.width();
-		stress[w]              = (force[0] * outward.x + force[1] * outward.y) / (length * thickness);
+		const auto outward = capfrac::Box::outward(w);
+		const Vector3r force = scene->forces.getForce(reader.wallIds[w]);
+		const Real length = w < 2 ? box.height() : box.width();
+		stress[w] = (force[0] * outward.x + force[1] * outward.y) / (length * thickness);
 	}
 	for (int w = 0; w < capfrac::nWalls; ++w)
-		if (task(w) == Task::stress) error = math::max(error, math::abs(stress[w] - target(w)) / (high > 0 ? high : 1));
+		if (task(w) == Task::stress)
+			error = math::max(error, math::abs(stress[w] - target(w)) / (high > 0 ? high : 1));
 }
 
 const std::array<Real, capfrac::nWalls>& WallServoEngine::contactStiffness()
@@ -83,8 +88,10 @@ const std::array<Real, capfrac::nWalls>& WallServoEngine::contactStiffness()
 	for (const auto& interaction : *scene->interactions) {
 		if (!interaction->isReal()) continue;
 		for (int w = 0; w < capfrac::nWalls; ++w) {
-			if (interaction->getId1() != reader.wallIds[w] && interaction->getId2() != reader.wallIds[w]) continue;
-			if (const auto* phys = dynamic_cast<const NormPhys*>(interaction->phys.get())) stiffnessNow[w] += phys->kn;
+			if (interaction->getId1() != reader.wallIds[w] && interaction->getId2() != reader.wallIds[w])
+				continue;
+			if (const auto* phys = dynamic_cast<const NormPhys*>(interaction->phys.get()))
+				stiffnessNow[w] += phys->kn;
 		}
 	}
 	return stiffnessNow;
@@ -104,39 +111,45 @@ void WallServoEngine::moveWalls()
 {
 	auto stiffness = contactStiffness();
 	for (const auto& engine : scene->engines) // a fluid that cannot leave at once resists, too
-		if (const auto* network = dynamic_cast<const PoreNetworkEngine*>(engine.get()); network && !network->dead)
+		if (const auto* network = dynamic_cast<const PoreNetworkEngine*>(engine.get());
+		        network && !network->dead)
 			for (int w = 0; w < capfrac::nWalls; ++w)
 				if (task(w) == Task::stress) stiffness[w] += network->wallStiffness(w);
 	for (int w = 0; w < capfrac::nWalls; ++w) {
-		auto&      state   = *(*scene->bodies)[reader.wallIds[w]]->state;
-		const Task todo    = task(w);
-		const Real speed   = todo == Task::stress ? followStress(w, stiffness[w]) : todo == Task::driven ? -driveVelocity : 0; // outwards
+		auto& state = *(*scene->bodies)[reader.wallIds[w]]->state;
+		const Task todo = task(w);
+		const Real speed = todo == Task::stress ? followStress(w, stiffness[w])
+		        : todo == Task::driven          ? -driveVelocity
+		                                        : 0; // outwards
 		const auto outward = capfrac::Box::outward(w);
-		state.vel          = speed * Vector3r(outward.x, outward.y, 0);
+		state.vel = speed * Vector3r(outward.x, outward.y, 0);
 	}
 }
 
 std::array<WallServoEngine::Answer, capfrac::nWalls> WallServoEngine::answers()
 {
 	const auto reported = stress; // the stresses without the fluid are nobody else's business
-	const auto off      = error;
+	const auto off = error;
 	measure();
-	const auto&                         stiffness = contactStiffness();
+	const auto& stiffness = contactStiffness();
 	std::array<Answer, capfrac::nWalls> found {};
 	for (int w = 0; w < capfrac::nWalls; ++w) {
-		const auto& state   = *(*scene->bodies)[reader.wallIds[w]]->state;
-		const auto  outward = capfrac::Box::outward(w);
-		const Task  todo    = task(w);
+		const auto& state = *(*scene->bodies)[reader.wallIds[w]]->state;
+		const auto outward = capfrac::Box::outward(w);
+		const Task todo = task(w);
 		if (todo == Task::driven) found[w].velocity = -driveVelocity;
 		if (todo != Task::stress) continue;
-		// What it does at its highest speed, touching nothing or for the mean stress is not linear in its own force: as it moved last.
+		// What it does at its highest speed, touching nothing or for the mean stress is not linear in its own
+		// force: as it moved last.
 		const Real last = state.vel[0] * outward.x + state.vel[1] * outward.y;
-		if (stiffness[w] <= 0 || math::abs(last) >= maxVelocity || !math::isnan(meanStress)) found[w].velocity = last;
+		if (stiffness[w] <= 0 || math::abs(last) >= maxVelocity || !math::isnan(meanStress))
+			found[w].velocity = last;
 		else
-			found[w].mobility = gain / (stiffness[w] * scene->dt), found[w].velocity = found[w].mobility * excess(w);
+			found[w].mobility = gain / (stiffness[w] * scene->dt),
+			found[w].velocity = found[w].mobility * excess(w);
 	}
 	stress = reported;
-	error  = off;
+	error = off;
 	return found;
 }
 
@@ -149,7 +162,10 @@ Real WallServoEngine::excess(int w) const
 Real WallServoEngine::followStress(int w, Real stiffness) const
 {
 	const Real force = excess(w);
-	const Real speed = stiffness > 0 ? gain * force / (stiffness * scene->dt) : force > 0 ? maxVelocity : force < 0 ? -maxVelocity : 0;
+	const Real speed = stiffness > 0 ? gain * force / (stiffness * scene->dt)
+	        : force > 0              ? maxVelocity
+	        : force < 0              ? -maxVelocity
+	                                 : 0;
 	return math::max(-maxVelocity, math::min(maxVelocity, speed));
 }
 

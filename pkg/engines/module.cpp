@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 /// The Python module capfrac._engines: loading it adds the classes of this folder to YADE.
 
 #include <core/Omega.hpp>
@@ -11,11 +12,14 @@ BOOST_PYTHON_MODULE(_engines)
 	namespace py = boost::python;
 	// YADE's own classes must be there before ours derive from them.
 	py::object wrapper = py::import("yade.wrapper");
-	py::scope  inWrapper(wrapper);
+	py::scope inWrapper(wrapper);
 	// Bases first. Omega::loadPlugins would do it for all classes, but wraps YADE's own a second time.
 	for (const char* name :
-	     { "DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys", "Ig2_Wall_Sphere_ScGeom6D", "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine" }) {
-		auto instance = YADE_PTR_DYN_CAST<yade::Serializable>(yade::ClassFactory::instance().createShared(name));
+	        { "DiskMat", "WallMat", "Ip2_DiskMat_DiskMat_CohFrictPhys", "Ip2_WallMat_DiskMat_CohFrictPhys",
+	                "Ig2_Wall_Sphere_ScGeom6D", "PoreNetworkEngine", "SinglePhaseFlowEngine", "GasEngine",
+	                "GasInvasionEngine", "ViscousInvasionEngine", "MeniscusCohesionEngine", "WallServoEngine" }) {
+		auto instance =
+		        YADE_PTR_DYN_CAST<yade::Serializable>(yade::ClassFactory::instance().createShared(name));
 		instance->pyRegisterClass(wrapper);
 	}
 }

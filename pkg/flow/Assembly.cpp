@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "Assembly.hpp"
 
 #include <cmath>
@@ -71,8 +72,8 @@ void Assembly::addCompression(const GrainCompression& compression, double dt)
 {
 	// Of the volume V - sum over grains of arc (lag - compliance p_mean), p_mean = sum arc p/sum arc, at the end.
 	forEachGrain(compression, [&](std::size_t from, std::size_t to, double around) {
-		const auto&  arcs  = compression.arcs;
-		const int    grain = arcs[from].grain;
+		const auto& arcs = compression.arcs;
+		const int grain = arcs[from].grain;
 		const double share = compression.compliance[grain] / around / dt;
 		for (std::size_t k = from; k < to; ++k) {
 			addRight(arcs[k].pore, arcs[k].area * compression.lag[grain] / dt);
@@ -101,7 +102,7 @@ void findFlows(const FlowNetwork& network, FlowStep& step)
 
 void moveMass(FlowNetwork& network, double dt, FlowStep& step)
 {
-	const std::size_t   n = network.pores.size();
+	const std::size_t n = network.pores.size();
 	std::vector<double> inflow(n);
 	for (std::size_t i = 0; i < n; ++i)
 		inflow[i] = network.pores[i].source;
@@ -115,10 +116,10 @@ void moveMass(FlowNetwork& network, double dt, FlowStep& step)
 	}
 	step.supply.assign(n, 0);
 	for (std::size_t i = 0; i < n; ++i) {
-		FlowPore&    pore   = network.pores[i];
+		FlowPore& pore = network.pores[i];
 		const double before = pore.mass;
 		if (pore.fixedPressure) {
-			pore.mass      = massAt(*pore.fixedPressure, step.volume[i], network.bulkModulus);
+			pore.mass = massAt(*pore.fixedPressure, step.volume[i], network.bulkModulus);
 			step.supply[i] = (pore.mass - before) / dt - inflow[i];
 			enter(step.ledger, dt * step.supply[i]);
 		} else

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// What the schemes in time share: the linear system of a step, and the move of mass by the flows it gave.
@@ -31,7 +32,8 @@ public:
 	void add(int i, int j, double value)
 	{
 		const int u = unknown[i], v = unknown[j];
-		if (u >= 0 && u == v) system.diagonal[u] += value;
+		if (u >= 0 && u == v)
+			system.diagonal[u] += value;
 		else if (u >= 0 && v >= 0)
 			system.entries.push_back({ u, v, value });
 		else if (u >= 0)
@@ -56,10 +58,10 @@ public:
 	void solve(PressureSolver& solver, FlowStep& step) const;
 
 private:
-	const FlowNetwork&  network;
-	std::vector<int>    unknown; ///< pore -> row, -1 for a fixed pressure
-	int                 count = 0;
-	PressureSystem      system;
+	const FlowNetwork& network;
+	std::vector<int> unknown; ///< pore -> row, -1 for a fixed pressure
+	int count = 0;
+	PressureSystem system;
 	std::vector<double> right;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "Coupling.hpp"
 #include "Assembly.hpp"
 
@@ -13,12 +14,15 @@ namespace {
 	bool isSorted(const std::vector<VolumeEntry>& entries)
 	{
 		for (std::size_t k = 1; k < entries.size(); ++k)
-			if (std::tie(entries[k].freedom, entries[k].pore) <= std::tie(entries[k - 1].freedom, entries[k - 1].pore)) return false;
+			if (std::tie(entries[k].freedom, entries[k].pore)
+			        <= std::tie(entries[k - 1].freedom, entries[k - 1].pore))
+				return false;
 		return true;
 	}
 
 	/// Calls `visit` with the entries [from, to) of each degree of freedom that is not prescribed.
-	template <class Visit> void forEachFree(const std::vector<VolumeEntry>& b, const Skeleton& skeleton, Visit visit)
+	template <class Visit>
+	void forEachFree(const std::vector<VolumeEntry>& b, const Skeleton& skeleton, Visit visit)
 	{
 		for (std::size_t from = 0, to = 0; from < b.size(); from = to) {
 			while (to < b.size() && b[to].freedom == b[from].freedom)
@@ -28,10 +32,11 @@ namespace {
 	}
 
 	/// Clusters whose sum of volumes the free degrees of freedom can change, beyond the round-off in B.
-	std::vector<std::uint8_t> yielding(const FlowClusters& clusters, const std::vector<VolumeEntry>& b, const Skeleton& skeleton)
+	std::vector<std::uint8_t> yielding(
+	        const FlowClusters& clusters, const std::vector<VolumeEntry>& b, const Skeleton& skeleton)
 	{
 		std::vector<std::uint8_t> yields(clusters.count, 0);
-		std::vector<double>       sum(clusters.count, 0), size(clusters.count, 0);
+		std::vector<double> sum(clusters.count, 0), size(clusters.count, 0);
 		forEachFree(b, skeleton, [&](std::size_t from, std::size_t to) {
 			for (std::size_t k = from; k < to; ++k) {
 				const int c = clusters.ofPore[b[k].pore];
@@ -46,11 +51,13 @@ namespace {
 		return yields;
 	}
 
-	/// Whether the entries [from, to) are followed by as many of the next degree of freedom in the same pores: those of a grain are.
+	/// Whether the entries [from, to) are followed by as many of the next degree of freedom in the same pores:
+	/// those of a grain are.
 	bool hasTwin(const std::vector<VolumeEntry>& b, std::size_t from, std::size_t to)
 	{
 		const std::size_t size = to - from;
-		if (to + size > b.size() || (to + size < b.size() && b[to + size].freedom == b[to].freedom)) return false;
+		if (to + size > b.size() || (to + size < b.size() && b[to + size].freedom == b[to].freedom))
+			return false;
 		for (std::size_t k = from; k < to; ++k)
 			if (b[k + size].pore != b[k].pore || b[k + size].freedom != b[from].freedom + 1) return false;
 		return true;
@@ -60,8 +67,8 @@ namespace {
 	void checkDetermined(const FlowNetwork& network, const std::vector<VolumeEntry>& b, const Skeleton& skeleton)
 	{
 		const auto clusters = findClusters(network);
-		auto       yields   = yielding(clusters, b, skeleton);
-		const auto soft     = compressed(clusters, skeleton.compression);
+		auto yields = yielding(clusters, b, skeleton);
+		const auto soft = compressed(clusters, skeleton.compression);
 		for (int c = 0; c < clusters.count; ++c)
 			yields[c] |= soft[c];
 		checkGrounded(network, clusters, yields);
@@ -73,21 +80,29 @@ void checkSkeleton(int nPores, const Skeleton& skeleton)
 {
 	const std::size_t n = skeleton.mass.size();
 	if (skeleton.velocity.size() != n || skeleton.force.size() != n)
-		throw FlowError("skeleton: " + std::to_string(n) + " masses, " + std::to_string(skeleton.velocity.size()) + " velocities and "
-		                + std::to_string(skeleton.force.size()) + " forces, allowed: one of each per degree of freedom");
-	if (!(skeleton.damping >= 0 && skeleton.damping < 1)) refuseStep("local damping [-]", skeleton.damping, "0 <= damping < 1");
+		throw FlowError("skeleton: " + std::to_string(n) + " masses, "
+		        + std::to_string(skeleton.velocity.size()) + " velocities and "
+		        + std::to_string(skeleton.force.size())
+		        + " forces, allowed: one of each per degree of freedom");
+	if (!(skeleton.damping >= 0 && skeleton.damping < 1))
+		refuseStep("local damping [-]", skeleton.damping, "0 <= damping < 1");
 	for (std::size_t f = 0; f < n; ++f) {
 		// Names are put together only when something is wrong: this runs every step.
-		if (skeleton.mass[f] > 0 && std::isfinite(skeleton.velocity[f]) && std::isfinite(skeleton.force[f])) continue;
+		if (skeleton.mass[f] > 0 && std::isfinite(skeleton.velocity[f]) && std::isfinite(skeleton.force[f]))
+			continue;
 		const std::string of = " of degree of freedom " + std::to_string(f);
-		if (!(skeleton.mass[f] > 0)) refuseStep("mass [kg]" + of, skeleton.mass[f], "> 0 (infinity: prescribed motion)");
-		if (!std::isfinite(skeleton.velocity[f])) refuseStep("velocity [m/s]" + of, skeleton.velocity[f], "a finite number");
+		if (!(skeleton.mass[f] > 0))
+			refuseStep("mass [kg]" + of, skeleton.mass[f], "> 0 (infinity: prescribed motion)");
+		if (!std::isfinite(skeleton.velocity[f]))
+			refuseStep("velocity [m/s]" + of, skeleton.velocity[f], "a finite number");
 		refuseStep("force [N]" + of, skeleton.force[f], "a finite number");
 	}
 	for (const VolumeEntry& e : skeleton.gradient)
-		if (e.pore < 0 || e.pore >= nPores || e.freedom < 0 || e.freedom >= static_cast<int>(n) || !std::isfinite(e.value))
-			refuseStep("volume gradient of pore " + std::to_string(e.pore) + " by degree of freedom " + std::to_string(e.freedom), e.value,
-			       "finite, of a pore and a degree of freedom that exist");
+		if (e.pore < 0 || e.pore >= nPores || e.freedom < 0 || e.freedom >= static_cast<int>(n)
+		        || !std::isfinite(e.value))
+			refuseStep("volume gradient of pore " + std::to_string(e.pore) + " by degree of freedom "
+			                + std::to_string(e.freedom),
+			        e.value, "finite, of a pore and a degree of freedom that exist");
 }
 
 std::vector<VolumeEntry> sortedGradient(std::vector<VolumeEntry> entries)
@@ -97,7 +112,8 @@ std::vector<VolumeEntry> sortedGradient(std::vector<VolumeEntry> entries)
 	});
 	std::vector<VolumeEntry> merged;
 	for (const VolumeEntry& e : entries)
-		if (!merged.empty() && merged.back().freedom == e.freedom && merged.back().pore == e.pore) merged.back().value += e.value;
+		if (!merged.empty() && merged.back().freedom == e.freedom && merged.back().pore == e.pore)
+			merged.back().value += e.value;
 		else
 			merged.push_back(e);
 	return merged;
@@ -110,22 +126,25 @@ void addMobility(Assembly& assembly, const std::vector<VolumeEntry>& b, const Sk
 	forEachFree(b, skeleton, [&](std::size_t from, std::size_t to) {
 		if (from < done) return;
 		const std::size_t size = to - from;
-		const double      mobility = dt * (1 + skeleton.damping) / skeleton.mass[b[from].freedom];
-		const bool        twin     = hasTwin(b, from, to) && std::isfinite(skeleton.mass[b[to].freedom]);
-		const double      other    = twin ? dt * (1 + skeleton.damping) / skeleton.mass[b[to].freedom] : 0;
+		const double mobility = dt * (1 + skeleton.damping) / skeleton.mass[b[from].freedom];
+		const bool twin = hasTwin(b, from, to) && std::isfinite(skeleton.mass[b[to].freedom]);
+		const double other = twin ? dt * (1 + skeleton.damping) / skeleton.mass[b[to].freedom] : 0;
 		if (twin) done = to + size;
 		for (std::size_t k = from; k < to; ++k)
 			for (std::size_t l = from; l <= k; ++l)
-				assembly.add(b[k].pore, b[l].pore, mobility * b[k].value * b[l].value + (twin ? other * b[k + size].value * b[l + size].value : 0));
+				assembly.add(b[k].pore, b[l].pore,
+				        mobility * b[k].value * b[l].value
+				                + (twin ? other * b[k + size].value * b[l + size].value : 0));
 	});
 }
 
-std::vector<double> volumeRates(const std::vector<VolumeEntry>& b, const Skeleton& skeleton, const std::vector<double>& load, double dt)
+std::vector<double> volumeRates(
+        const std::vector<VolumeEntry>& b, const Skeleton& skeleton, const std::vector<double>& load, double dt)
 {
 	std::vector<double> rates(load.size(), 0);
 	for (std::size_t from = 0, to = 0; from < b.size(); from = to) {
-		const int f     = b[from].freedom;
-		double    force = skeleton.force[f];
+		const int f = b[from].freedom;
+		double force = skeleton.force[f];
 		for (; to < b.size() && b[to].freedom == f; ++to)
 			force += b[to].value * load[b[to].pore];
 		// An infinite mass leaves the prescribed velocity as it is.
@@ -136,7 +155,8 @@ std::vector<double> volumeRates(const std::vector<VolumeEntry>& b, const Skeleto
 	return rates;
 }
 
-std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const std::vector<int>& poreOfCell, int nGrains, double thickness)
+std::vector<VolumeEntry> poreGradient(
+        const VolumeGradients& gradients, const std::vector<int>& poreOfCell, int nGrains, double thickness)
 {
 	// Sorted by grain first, which costs half of sorting by degree of freedom: both of a grain have the same pores.
 	std::vector<std::size_t> begin(nGrains + 1, 0);
@@ -145,11 +165,11 @@ std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const st
 	for (int i = 0; i < nGrains; ++i)
 		begin[i + 1] += begin[i];
 	struct Piece {
-		int  pore;
+		int pore;
 		Vec2 value;
 	};
 	std::vector<Piece> pieces(begin[nGrains]);
-	auto               next = begin;
+	auto next = begin;
 	for (const auto& g : gradients.grains)
 		if (poreOfCell[g.cell] >= 0) pieces[next[g.grain]++] = { poreOfCell[g.cell], thickness * g.centre };
 	std::vector<VolumeEntry> entries;
@@ -159,7 +179,8 @@ std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const st
 		std::stable_sort(from, to, [](const Piece& s, const Piece& t) { return s.pore < t.pore; });
 		auto last = from;
 		for (auto piece = from; piece != to; ++piece)
-			if (piece == from) continue;
+			if (piece == from)
+				continue;
 			else if (piece->pore == last->pore)
 				last->value += piece->value;
 			else
@@ -172,7 +193,8 @@ std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const st
 	}
 	std::vector<VolumeEntry> walls;
 	for (const auto& w : gradients.walls)
-		if (poreOfCell[w.cell] >= 0) walls.push_back({ poreOfCell[w.cell], 2 * nGrains + w.wall, thickness * w.outward });
+		if (poreOfCell[w.cell] >= 0)
+			walls.push_back({ poreOfCell[w.cell], 2 * nGrains + w.wall, thickness * w.outward });
 	walls = sortedGradient(std::move(walls));
 	entries.insert(entries.end(), walls.begin(), walls.end());
 	return entries;
@@ -183,8 +205,9 @@ FlowStep coupledStep(FlowNetwork& network, const Skeleton& skeleton, double dt, 
 	checkStep(dt);
 	checkNetwork(network);
 	checkSkeleton(static_cast<int>(network.pores.size()), skeleton);
-	const auto  sorted = isSorted(skeleton.gradient) ? std::vector<VolumeEntry>() : sortedGradient(skeleton.gradient);
-	const auto& b      = sorted.empty() ? skeleton.gradient : sorted;
+	const auto sorted =
+	        isSorted(skeleton.gradient) ? std::vector<VolumeEntry>() : sortedGradient(skeleton.gradient);
+	const auto& b = sorted.empty() ? skeleton.gradient : sorted;
 	if (network.incompressible()) checkDetermined(network, b, skeleton);
 	FlowStep step;
 	step.volume = volumesOf(network);

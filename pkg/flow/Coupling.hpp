@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// Flow and the motion of the grains in one linear system: see coupledStep().
@@ -13,30 +14,33 @@ class Assembly;
 
 /// dV/dx of a pore with respect to one degree of freedom [m^2].
 struct VolumeEntry {
-	int    pore = -1, freedom = -1;
+	int pore = -1, freedom = -1;
 	double value = 0;
 };
 
 /// The grains as coupledStep() sees them, one entry per degree of freedom (a component of a velocity).
 struct Skeleton {
 	std::vector<VolumeEntry> gradient; ///< B; fastest as poreGradient() returns it: sorted by freedom, then pore
-	std::vector<double>      velocity; ///< v at the beginning of the step (leapfrog: half a step ago) [m/s]
-	std::vector<double>      force;    ///< F_c: all forces but those of the fluid [N]
-	std::vector<double>      mass;     ///< [kg] > 0; infinity: the motion is prescribed
-	double                   damping = 0; ///< lambda of YADE's local damping, 0 <= lambda < 1
-	GrainCompression         compression; ///< of the grains by the fluid; empty: rigid
+	std::vector<double> velocity;      ///< v at the beginning of the step (leapfrog: half a step ago) [m/s]
+	std::vector<double> force;         ///< F_c: all forces but those of the fluid [N]
+	std::vector<double> mass;          ///< [kg] > 0; infinity: the motion is prescribed
+	double damping = 0;                ///< lambda of YADE's local damping, 0 <= lambda < 1
+	GrainCompression compression;      ///< of the grains by the fluid; empty: rigid
 };
 
 /// B of the pores from that of the cells: pore `poreOfCell[c]` holds cell c (-1: none). Grain i has the
 /// degrees of freedom 2i and 2i + 1, wall w has 2 nGrains + w (along its outward normal); times the
 /// `thickness` [m]. Sorted by degree of freedom, then pore, one entry for each place.
-std::vector<VolumeEntry> poreGradient(const VolumeGradients& gradients, const std::vector<int>& poreOfCell, int nGrains, double thickness);
+std::vector<VolumeEntry> poreGradient(
+        const VolumeGradients& gradients, const std::vector<int>& poreOfCell, int nGrains, double thickness);
 
 /// Adds dt (1 + lambda) B M^-1 B^T to a system; `b` as in Skeleton, sorted by freedom, then pore.
 void addMobility(Assembly& assembly, const std::vector<VolumeEntry>& b, const Skeleton& skeleton, double dt);
 
-/// Rates of the volumes of the pores [m^3/s] under the pressures `load` [Pa], B (v + dt (1 + lambda) M^-1 (F_c + B^T load)); `b` as above.
-std::vector<double> volumeRates(const std::vector<VolumeEntry>& b, const Skeleton& skeleton, const std::vector<double>& load, double dt);
+/// Rates of the volumes of the pores [m^3/s] under the pressures `load` [Pa], B (v + dt (1 + lambda) M^-1 (F_c + B^T
+/// load)); `b` as above.
+std::vector<double> volumeRates(
+        const std::vector<VolumeEntry>& b, const Skeleton& skeleton, const std::vector<double>& load, double dt);
 
 /// The entries sorted by freedom, then pore, those of the same place added up.
 std::vector<VolumeEntry> sortedGradient(std::vector<VolumeEntry> entries);

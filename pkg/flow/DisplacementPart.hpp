@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// One part of a step of displace(): implicit, for a length that the caller chooses and may take back.
@@ -8,29 +9,30 @@ namespace capfrac {
 
 /// The grains at the beginning of a part, and how they answer.
 struct DisplacedGrains {
-	const Skeleton*          skeleton = nullptr; ///< null: they stand still
-	std::vector<VolumeEntry> gradient; ///< of the skeleton, sorted
-	GrainCompression         compression; ///< its lag: what the radii have still to grow by at pressure zero
-	double                   dt = 0; ///< of the whole step [s]
+	const Skeleton* skeleton = nullptr; ///< null: they stand still
+	std::vector<VolumeEntry> gradient;  ///< of the skeleton, sorted
+	GrainCompression compression;       ///< its lag: what the radii have still to grow by at pressure zero
+	double dt = 0;                      ///< of the whole step [s]
 };
 
 /// The network at the end of a part.
 struct DisplacementTrial {
-	std::vector<double>       pressure, water, gas, held, volume; ///< of the pores, as in TwoFluidPore
-	std::vector<double>       load; ///< [Pa]
-	std::vector<double>       growth; ///< of the radii of compressed grains [m]; empty: rigid grains
-	std::vector<double>       throatFlow; ///< from a to b [m^3/s]
-	std::vector<double>       supply; ///< into pores of fixed pressure [m^3/s, as amount]
-	double                    films = 0; ///< water that left through films [m^3/s, as amount]
+	std::vector<double> pressure, water, gas, held, volume; ///< of the pores, as in TwoFluidPore
+	std::vector<double> load;                               ///< [Pa]
+	std::vector<double> growth;     ///< of the radii of compressed grains [m]; empty: rigid grains
+	std::vector<double> throatFlow; ///< from a to b [m^3/s]
+	std::vector<double> supply;     ///< into pores of fixed pressure [m^3/s, as amount]
+	double films = 0;               ///< water that left through films [m^3/s, as amount]
 	std::vector<std::uint8_t> open; ///< throats where gas advances
-	std::vector<int>          openings; ///< of each throat, while the pressures were sought
-	int                       iterations = 0, factored = 0;
+	std::vector<int> openings;      ///< of each throat, while the pressures were sought
+	int iterations = 0, factored = 0;
 };
 
 class DisplacementPart {
 public:
 	/// `volume`: of the pores at the beginning of the part.
-	DisplacementPart(const TwoFluidNetwork& network, const std::vector<double>& volume, const DisplacedGrains& grains, PressureSolver& solver);
+	DisplacementPart(const TwoFluidNetwork& network, const std::vector<double>& volume,
+	        const DisplacedGrains& grains, PressureSolver& solver);
 
 	/// The end after `h` [s].
 	DisplacementTrial end(double h);
@@ -52,30 +54,31 @@ private:
 	double excessOverFilms(const DisplacementTrial& trial, int pore) const;
 	/// Conductance of a throat now [m^3/(Pa s)], 0 where gas may not pass.
 	double conductance(const DisplacementTrial& trial, std::size_t throat) const;
-	void   findFlows(DisplacementTrial& trial) const;
-	bool   openAndShut(DisplacementTrial& trial, double slack) const;
+	void findFlows(DisplacementTrial& trial) const;
+	bool openAndShut(DisplacementTrial& trial, double slack) const;
 
-	void   moveAmounts(DisplacementTrial& trial, double h) const;
-	void   supplyReservoirs(DisplacementTrial& trial, double h) const;
+	void moveAmounts(DisplacementTrial& trial, double h) const;
+	void supplyReservoirs(DisplacementTrial& trial, double h) const;
 	double residual(const DisplacementTrial& trial, int pore) const;
 	double storage(const DisplacementTrial& trial, int pore) const;
-	void   evaluate(DisplacementTrial& trial, double h) const;
-	/// By how much the pressure of each pore would have to change for what it holds to fill it [Pa], were it closed.
+	void evaluate(DisplacementTrial& trial, double h) const;
+	/// By how much the pressure of each pore would have to change for what it holds to fill it [Pa], were it
+	/// closed.
 	std::vector<double> errors(const DisplacementTrial& trial, double h) const;
-	void   correct(DisplacementTrial& trial, double h);
-	void   keepOffVacuum(DisplacementTrial& trial) const;
+	void correct(DisplacementTrial& trial, double h);
+	void keepOffVacuum(DisplacementTrial& trial) const;
 	double scaleOf(const DisplacementTrial& trial) const;
 	double sizeOf(const DisplacementTrial& trial, int pore) const;
 
-	const TwoFluidNetwork&          network;
-	const std::vector<double>&      volume;
-	const DisplacedGrains&          grains;
-	GrainCompression                softness; ///< of the grains: their compression without the lag
-	PressureSolver&                 solver;
-	std::vector<int>                beyond;
-	std::vector<double>             share; ///< of gas in each pore at the beginning
-	std::vector<double>             viscosity; ///< in each throat
-	std::vector<std::uint8_t>       locked; ///< pores of water without any boundary
+	const TwoFluidNetwork& network;
+	const std::vector<double>& volume;
+	const DisplacedGrains& grains;
+	GrainCompression softness; ///< of the grains: their compression without the lag
+	PressureSolver& solver;
+	std::vector<int> beyond;
+	std::vector<double> share;        ///< of gas in each pore at the beginning
+	std::vector<double> viscosity;    ///< in each throat
+	std::vector<std::uint8_t> locked; ///< pores of water without any boundary
 };
 
 } // namespace capfrac

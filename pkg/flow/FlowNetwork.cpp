@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "FlowNetwork.hpp"
 
 #include "../network/UnionFind.hpp"
@@ -28,11 +29,12 @@ namespace {
 	{
 		const FlowPore& pore = network.pores[i];
 		// Names are put together only when something is wrong: this runs every step.
-		if (pore.volume > 0 && std::isfinite(pore.volume) && std::isfinite(pore.mass) && std::isfinite(pore.source)
-		    && std::isfinite(pore.fixedPressure.value_or(0)))
+		if (pore.volume > 0 && std::isfinite(pore.volume) && std::isfinite(pore.mass)
+		        && std::isfinite(pore.source) && std::isfinite(pore.fixedPressure.value_or(0)))
 			return;
 		const std::string name = "pore " + std::to_string(i) + ": ";
-		if (!(pore.volume > 0 && std::isfinite(pore.volume))) refuse(name + "volume [m^3]", pore.volume, "> 0", static_cast<int>(i));
+		if (!(pore.volume > 0 && std::isfinite(pore.volume)))
+			refuse(name + "volume [m^3]", pore.volume, "> 0", static_cast<int>(i));
 		checkFinite(name + "mass [m^3]", pore.mass, static_cast<int>(i));
 		checkFinite(name + "source [m^3/s]", pore.source, static_cast<int>(i));
 		checkFinite(name + "fixed pressure [Pa]", pore.fixedPressure.value_or(0), static_cast<int>(i));
@@ -47,12 +49,14 @@ namespace {
 	void checkEnd(const char* what, std::size_t index, int pore, std::size_t nPores)
 	{
 		if (pore >= 0 && static_cast<std::size_t>(pore) < nPores) return;
-		refuse(what + std::to_string(index) + ": pore", pore, ("0 to " + std::to_string(static_cast<long>(nPores) - 1)).c_str());
+		refuse(what + std::to_string(index) + ": pore", pore,
+		        ("0 to " + std::to_string(static_cast<long>(nPores) - 1)).c_str());
 	}
 
 	void checkBulkModulus(double bulkModulus)
 	{
-		if (!(bulkModulus > 0)) refuse("bulk modulus of the fluid [Pa]", bulkModulus, "> 0 (infinity: incompressible)");
+		if (!(bulkModulus > 0))
+			refuse("bulk modulus of the fluid [Pa]", bulkModulus, "> 0 (infinity: incompressible)");
 	}
 
 } // namespace
@@ -73,14 +77,17 @@ void checkNetwork(const FlowNetwork& network)
 		const FlowThroat& throat = network.throats[t];
 		checkEnd("throat ", t, throat.a, n);
 		checkEnd("throat ", t, throat.b, n);
-		if (throat.a == throat.b) throw FlowError("throat " + std::to_string(t) + ": joins pore " + std::to_string(throat.a) + " to itself");
+		if (throat.a == throat.b)
+			throw FlowError("throat " + std::to_string(t) + ": joins pore " + std::to_string(throat.a)
+			        + " to itself");
 		checkConductance("throat ", t, throat.conductance);
 	}
 	for (std::size_t l = 0; l < network.links.size(); ++l) {
 		checkEnd("boundary link ", l, network.links[l].pore, n);
 		checkConductance("boundary link ", l, network.links[l].conductance);
 		if (!std::isfinite(network.links[l].pressure))
-			refuse("boundary link " + std::to_string(l) + ": pressure [Pa]", network.links[l].pressure, "a finite number");
+			refuse("boundary link " + std::to_string(l) + ": pressure [Pa]", network.links[l].pressure,
+			        "a finite number");
 	}
 }
 
@@ -88,12 +95,15 @@ double massAt(double pressure, double volume, double bulkModulus) { return volum
 
 std::vector<double> pressuresOf(const FlowNetwork& network)
 {
-	if (network.incompressible()) throw FlowError("the mass of an incompressible fluid says nothing about its pressure");
+	if (network.incompressible())
+		throw FlowError("the mass of an incompressible fluid says nothing about its pressure");
 	std::vector<double> pressure;
 	pressure.reserve(network.pores.size());
 	// m - V first: m/V - 1 would lose the digits that a stiff fluid lives on twice.
 	for (const FlowPore& pore : network.pores)
-		pressure.push_back(pore.fixedPressure ? *pore.fixedPressure : network.bulkModulus * ((pore.mass - pore.volume) / pore.volume));
+		pressure.push_back(pore.fixedPressure
+		                ? *pore.fixedPressure
+		                : network.bulkModulus * ((pore.mass - pore.volume) / pore.volume));
 	return pressure;
 }
 
@@ -129,22 +139,27 @@ FlowClusters findClusters(const FlowNetwork& network)
 	return clusters;
 }
 
-void checkGrounded(const FlowNetwork& network, const FlowClusters& clusters, const std::vector<std::uint8_t>& freeVolume)
+void checkGrounded(
+        const FlowNetwork& network, const FlowClusters& clusters, const std::vector<std::uint8_t>& freeVolume)
 {
 	if (!network.incompressible()) return;
 	auto floats = [&](int c) { return !clusters.grounded[c] && (freeVolume.empty() || !freeVolume[c]); };
-	int  cluster = 0;
+	int cluster = 0;
 	while (cluster < clusters.count && !floats(cluster))
 		++cluster;
 	if (cluster == clusters.count) return;
-	const bool anywhere = std::any_of(clusters.grounded.begin(), clusters.grounded.end(), [](std::uint8_t g) { return g != 0; });
+	const bool anywhere =
+	        std::any_of(clusters.grounded.begin(), clusters.grounded.end(), [](std::uint8_t g) { return g != 0; });
 	if (!anywhere)
-		throw FlowError("incompressible flow without a pressure anywhere: fix one, link a pore to the outside, or give the "
+		throw FlowError("incompressible flow without a pressure anywhere: fix one, link a pore to the outside, "
+		                "or give the "
 		                "fluid a finite bulk modulus");
 	const auto size = std::count(clusters.ofPore.begin(), clusters.ofPore.end(), cluster);
-	throw FlowError("pore " + std::to_string(clusters.first[cluster]) + ": its cluster (pores: " + std::to_string(size)
-	                + ") is cut off from every boundary with a pressure, which leaves the pressure of an incompressible fluid undetermined",
-	                clusters.first[cluster]);
+	throw FlowError("pore " + std::to_string(clusters.first[cluster])
+	                + ": its cluster (pores: " + std::to_string(size)
+	                + ") is cut off from every boundary with a pressure, which leaves the pressure of an "
+	                  "incompressible fluid undetermined",
+	        clusters.first[cluster]);
 }
 
 } // namespace capfrac

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// A problem of single-phase flow in plain numbers: pores, throats between them, links to the outside.
@@ -20,30 +21,30 @@
 namespace capfrac {
 
 struct FlowPore {
-	double                volume = 0; ///< V [m^3] > 0
-	double                mass   = 0; ///< m [m^3]
-	double                source = 0; ///< Q [m^3/s] into the pore
+	double volume = 0;                   ///< V [m^3] > 0
+	double mass = 0;                     ///< m [m^3]
+	double source = 0;                   ///< Q [m^3/s] into the pore
 	std::optional<double> fixedPressure; ///< [Pa]: a reservoir; its mass is kept at V (1 + p/K_f) from outside
 };
 
 /// Flow from a to b is G (p_a - p_b).
 struct FlowThroat {
-	int    a = -1, b = -1;  ///< pores
+	int a = -1, b = -1;     ///< pores
 	double conductance = 0; ///< G = C/L [m^3/(Pa s)] >= 0
 };
 
 /// Flow out of the pore is G (p - pressure).
 struct BoundaryLink {
-	int    pore        = -1;
-	double pressure    = 0; ///< outside [Pa]
+	int pore = -1;
+	double pressure = 0;    ///< outside [Pa]
 	double conductance = 0; ///< G [m^3/(Pa s)] >= 0
 };
 
 struct FlowNetwork {
-	std::vector<FlowPore>     pores;
-	std::vector<FlowThroat>   throats;
+	std::vector<FlowPore> pores;
+	std::vector<FlowThroat> throats;
 	std::vector<BoundaryLink> links;
-	double                    bulkModulus = std::numeric_limits<double>::infinity(); ///< K_f [Pa] > 0
+	double bulkModulus = std::numeric_limits<double>::infinity(); ///< K_f [Pa] > 0
 
 	bool incompressible() const { return bulkModulus == std::numeric_limits<double>::infinity(); }
 };
@@ -76,9 +77,9 @@ double totalMass(const FlowNetwork& network);
 
 /// Sets of pores that exchange fluid through throats of G > 0.
 struct FlowClusters {
-	int                       count = 0;
-	std::vector<int>          ofPore;   ///< pore -> cluster, numbered by the first pore of each
-	std::vector<int>          first;    ///< cluster -> its first pore
+	int count = 0;
+	std::vector<int> ofPore;            ///< pore -> cluster, numbered by the first pore of each
+	std::vector<int> first;             ///< cluster -> its first pore
 	std::vector<std::uint8_t> grounded; ///< 1: a fixed pressure, or a link of G > 0, sets its level of pressure
 };
 
@@ -87,6 +88,7 @@ FlowClusters findClusters(const FlowNetwork& network);
 /// Checks that the pressure of an incompressible fluid is determined: some boundary with a pressure, and
 /// one for every cluster. Clusters with `freeVolume` = 1 (empty: none) may go without, because grains that
 /// give way set their pressure. Nothing to check for a compressible fluid. Throws FlowError.
-void checkGrounded(const FlowNetwork& network, const FlowClusters& clusters, const std::vector<std::uint8_t>& freeVolume = {});
+void checkGrounded(
+        const FlowNetwork& network, const FlowClusters& clusters, const std::vector<std::uint8_t>& freeVolume = {});
 
 } // namespace capfrac

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "GrainCompression.hpp"
 
 #include <algorithm>
@@ -6,16 +7,20 @@
 
 namespace capfrac {
 
-std::vector<WettedArc> wettedArcs(const VolumeGradients& gradients, const std::vector<int>& poreOfCell, double thickness)
+std::vector<WettedArc> wettedArcs(
+        const VolumeGradients& gradients, const std::vector<int>& poreOfCell, double thickness)
 {
 	std::vector<WettedArc> all;
 	all.reserve(gradients.grains.size());
 	for (const auto& g : gradients.grains)
 		if (poreOfCell[g.cell] >= 0) all.push_back({ poreOfCell[g.cell], g.grain, -thickness * g.radius });
-	std::stable_sort(all.begin(), all.end(), [](const WettedArc& s, const WettedArc& t) { return std::tie(s.grain, s.pore) < std::tie(t.grain, t.pore); });
+	std::stable_sort(all.begin(), all.end(), [](const WettedArc& s, const WettedArc& t) {
+		return std::tie(s.grain, s.pore) < std::tie(t.grain, t.pore);
+	});
 	std::vector<WettedArc> merged;
 	for (const WettedArc& arc : all)
-		if (!merged.empty() && merged.back().grain == arc.grain && merged.back().pore == arc.pore) merged.back().area += arc.area;
+		if (!merged.empty() && merged.back().grain == arc.grain && merged.back().pore == arc.pore)
+			merged.back().area += arc.area;
 		else
 			merged.push_back(arc);
 	return merged;
@@ -29,7 +34,7 @@ std::vector<double> radiusGrowth(const GrainCompression& compression, const std:
 		for (std::size_t k = from; k < to; ++k)
 			load += compression.arcs[k].area * pressure[compression.arcs[k].pore];
 		const int grain = compression.arcs[from].grain;
-		growth[grain]   = compression.lag[grain] - compression.compliance[grain] * load / around;
+		growth[grain] = compression.lag[grain] - compression.compliance[grain] * load / around;
 	});
 	return growth;
 }
@@ -44,7 +49,8 @@ double laggedResponse(const GrainCompression& compression, const std::vector<dou
 {
 	std::vector<double> response(volume.size(), 0);
 	for (const WettedArc& arc : compression.arcs)
-		response[arc.pore] += std::abs(arc.area) * compression.compliance[arc.grain] * bulkModulus / volume[arc.pore];
+		response[arc.pore] +=
+		        std::abs(arc.area) * compression.compliance[arc.grain] * bulkModulus / volume[arc.pore];
 	return response.empty() ? 0 : *std::max_element(response.begin(), response.end());
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// Grains that the fluid compresses, Eq. 10 of Jain & Juanes (2008):
@@ -17,21 +18,22 @@ namespace capfrac {
 
 /// The arc of a grain that a pore wets, times the thickness: -dV/dr [m^2].
 struct WettedArc {
-	int    pore = -1, grain = -1;
+	int pore = -1, grain = -1;
 	double area = 0;
 };
 
 /// Empty where grains are rigid.
 struct GrainCompression {
-	std::vector<WettedArc> arcs;       ///< sorted by grain, then pore, one for each pair
-	std::vector<double>    compliance; ///< c = r_0/(3 K_s) of every grain [m/Pa] >= 0
-	std::vector<double>    lag;        ///< r_0 + c p_0 - r: what the radius now would grow by at pressure zero [m]
+	std::vector<WettedArc> arcs;    ///< sorted by grain, then pore, one for each pair
+	std::vector<double> compliance; ///< c = r_0/(3 K_s) of every grain [m/Pa] >= 0
+	std::vector<double> lag;        ///< r_0 + c p_0 - r: what the radius now would grow by at pressure zero [m]
 
 	bool empty() const { return arcs.empty(); }
 };
 
 /// The arcs of all pores, merged from those of their cells; pore `poreOfCell[c]` holds cell c (-1: none).
-std::vector<WettedArc> wettedArcs(const VolumeGradients& gradients, const std::vector<int>& poreOfCell, double thickness);
+std::vector<WettedArc> wettedArcs(
+        const VolumeGradients& gradients, const std::vector<int>& poreOfCell, double thickness);
 
 /// Growth of every grain's radius under the pore pressures `pressure` [Pa]: lag - c p_mean [m]. A grain that
 /// no pore wets keeps its radius.

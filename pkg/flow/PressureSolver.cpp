@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "PressureSolver.hpp"
 
 // CHOLMOD's own interface rather than Eigen's wrapper: this file ends up in one module with host code that
@@ -32,9 +33,9 @@ namespace {
 	/// Lower triangle by columns, rows ascending.
 	struct LowerTriangle {
 		std::vector<int> start, row;
-		Vector           value;
+		Vector value;
 
-		int  size() const { return static_cast<int>(start.size()) - 1; }
+		int size() const { return static_cast<int>(start.size()) - 1; }
 		bool samePattern(const LowerTriangle& other) const { return start == other.start && row == other.row; }
 
 		/// y = A x; with `absolute` |A| |x|, which measures the round-off in it.
@@ -43,7 +44,7 @@ namespace {
 			y.assign(x.size(), 0);
 			for (int j = 0; j < size(); ++j)
 				for (int k = start[j]; k < start[j + 1]; ++k) {
-					const int    i = row[k];
+					const int i = row[k];
 					const double a = absolute ? std::abs(value[k]) : value[k];
 					y[i] += a * (absolute ? std::abs(x[j]) : x[j]);
 					if (i != j) y[j] += a * (absolute ? std::abs(x[i]) : x[i]);
@@ -55,29 +56,34 @@ namespace {
 	{
 		const int n = static_cast<int>(system.diagonal.size());
 		if (b.size() != system.diagonal.size())
-			refuse("right-hand side of " + std::to_string(b.size()) + " for " + std::to_string(n) + " unknowns");
+			refuse("right-hand side of " + std::to_string(b.size()) + " for " + std::to_string(n)
+			        + " unknowns");
 		for (int i = 0; i < n; ++i) {
-			if (!std::isfinite(system.diagonal[i])) refuse("unknown " + std::to_string(i) + ": the diagonal of the matrix is not finite");
-			if (!std::isfinite(b[i])) refuse("unknown " + std::to_string(i) + ": the right-hand side is not finite");
+			if (!std::isfinite(system.diagonal[i]))
+				refuse("unknown " + std::to_string(i) + ": the diagonal of the matrix is not finite");
+			if (!std::isfinite(b[i]))
+				refuse("unknown " + std::to_string(i) + ": the right-hand side is not finite");
 		}
 		for (const auto& e : system.entries) {
 			if (e.row < 0 || e.row >= n || e.column < 0 || e.column >= n)
-				refuse("entry (" + std::to_string(e.row) + ", " + std::to_string(e.column) + ") of a matrix of " + std::to_string(n) + " unknowns");
+				refuse("entry (" + std::to_string(e.row) + ", " + std::to_string(e.column)
+				        + ") of a matrix of " + std::to_string(n) + " unknowns");
 			if (!std::isfinite(e.value))
-				refuse("unknown " + std::to_string(e.row) + ": its entry with unknown " + std::to_string(e.column) + " is not finite");
+				refuse("unknown " + std::to_string(e.row) + ": its entry with unknown "
+				        + std::to_string(e.column) + " is not finite");
 		}
 	}
 
 	LowerTriangle assemble(const PressureSystem& system)
 	{
-		const int        n = static_cast<int>(system.diagonal.size());
+		const int n = static_cast<int>(system.diagonal.size());
 		std::vector<int> begin(n + 1, 0);
 		for (const auto& e : system.entries)
 			++begin[std::min(e.row, e.column) + 1];
 		for (int j = 0; j < n; ++j)
 			begin[j + 1] += begin[j] + 1; // one more for the diagonal
 		std::vector<std::pair<int, double>> all(begin[n]);
-		auto                                next = begin;
+		auto next = begin;
 		for (int j = 0; j < n; ++j)
 			all[next[j]++] = { j, system.diagonal[j] };
 		for (const auto& e : system.entries)
@@ -87,7 +93,8 @@ namespace {
 		a.start.push_back(0);
 		for (int j = 0; j < n; ++j) {
 			// Stable, so that entries of one place are always added up in the order given.
-			std::stable_sort(all.begin() + begin[j], all.begin() + begin[j + 1], [](const auto& s, const auto& t) { return s.first < t.first; });
+			std::stable_sort(all.begin() + begin[j], all.begin() + begin[j + 1],
+			        [](const auto& s, const auto& t) { return s.first < t.first; });
 			for (int k = begin[j]; k < begin[j + 1]; ++k) {
 				if (k > begin[j] && all[k].first == all[k - 1].first) {
 					a.value.back() += all[k].second;
@@ -107,10 +114,10 @@ namespace {
 		Factor()
 		{
 			cholmod_start(&common);
-			common.print              = 0;
-			common.supernodal         = CHOLMOD_SIMPLICIAL; // no BLAS, whose threads would decide the last bits
-			common.final_ll           = 1;                  // L L' refuses an indefinite matrix, L D L' would not
-			common.nmethods           = 1;
+			common.print = 0;
+			common.supernodal = CHOLMOD_SIMPLICIAL; // no BLAS, whose threads would decide the last bits
+			common.final_ll = 1;                    // L L' refuses an indefinite matrix, L D L' would not
+			common.nmethods = 1;
 			common.method[0].ordering = CHOLMOD_AMD;
 		}
 		~Factor()
@@ -121,7 +128,7 @@ namespace {
 			cholmod_free_dense(&e, &common);
 			cholmod_finish(&common);
 		}
-		Factor(const Factor&)            = delete;
+		Factor(const Factor&) = delete;
 		Factor& operator=(const Factor&) = delete;
 
 		void make(LowerTriangle& a, bool newPattern)
@@ -135,7 +142,7 @@ namespace {
 			if (ready) return;
 			if (common.status == CHOLMOD_NOT_POSDEF || (factor && factor->minor < factor->n))
 				refuse("unknown " + std::to_string(static_cast<const int*>(factor->Perm)[factor->minor])
-				       + ": the matrix is not positive definite");
+				        + ": the matrix is not positive definite");
 			refuse("CHOLMOD could not factorize the matrix, status " + std::to_string(common.status));
 		}
 
@@ -143,10 +150,10 @@ namespace {
 		{
 			cholmod_dense right {};
 			right.nrow = right.nzmax = right.d = b.size();
-			right.ncol                         = 1;
-			right.x                            = b.data();
-			right.xtype                        = CHOLMOD_REAL;
-			right.dtype                        = CHOLMOD_DOUBLE;
+			right.ncol = 1;
+			right.x = b.data();
+			right.xtype = CHOLMOD_REAL;
+			right.dtype = CHOLMOD_DOUBLE;
 			if (!cholmod_solve2(CHOLMOD_A, factor, &right, nullptr, &x, nullptr, &y, &e, &common))
 				refuse("CHOLMOD could not solve, status " + std::to_string(common.status));
 			const double* values = static_cast<const double*>(x->x);
@@ -160,31 +167,31 @@ namespace {
 		{
 			cholmod_sparse view {};
 			view.nrow = view.ncol = static_cast<std::size_t>(a.size());
-			view.nzmax            = a.row.size();
-			view.p                = a.start.data();
-			view.i                = a.row.data();
-			view.x                = a.value.data();
-			view.stype            = -1;
-			view.itype            = CHOLMOD_INT;
-			view.xtype            = CHOLMOD_REAL;
-			view.dtype            = CHOLMOD_DOUBLE;
+			view.nzmax = a.row.size();
+			view.p = a.start.data();
+			view.i = a.row.data();
+			view.x = a.value.data();
+			view.stype = -1;
+			view.itype = CHOLMOD_INT;
+			view.xtype = CHOLMOD_REAL;
+			view.dtype = CHOLMOD_DOUBLE;
 			view.sorted = view.packed = 1;
 			return view;
 		}
 
-		cholmod_common  common {};
+		cholmod_common common {};
 		cholmod_factor* factor = nullptr;
-		cholmod_dense * x = nullptr, *y = nullptr, *e = nullptr;
+		cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;
 	};
 
 } // namespace
 
 struct PressureSolver::Implementation {
 	PressureSolverOptions options;
-	LowerTriangle         matrix;
-	Factor                factor;
-	Vector                factored; ///< values of the matrix that the factor is of; its pattern is that of `matrix`
-	Vector                residual, direction, product, preconditioned;
+	LowerTriangle matrix;
+	Factor factor;
+	Vector factored; ///< values of the matrix that the factor is of; its pattern is that of `matrix`
+	Vector residual, direction, product, preconditioned;
 
 	void factorize(bool newPattern)
 	{
@@ -210,13 +217,15 @@ struct PressureSolver::Implementation {
 		for (int iteration = 1; iteration <= maxIterations; ++iteration) {
 			factor.solve(residual, preconditioned);
 			const double now = dotProduct(residual, preconditioned);
-			if (iteration == 1) direction = preconditioned;
+			if (iteration == 1)
+				direction = preconditioned;
 			else
 				for (std::size_t i = 0; i < x.size(); ++i)
 					direction[i] = preconditioned[i] + now / old * direction[i];
 			matrix.multiply(direction, product);
 			const double curvature = dotProduct(direction, product);
-			if (!(curvature > 0)) return maxIterations; // not positive definite: the factorization will say so
+			if (!(curvature > 0))
+				return maxIterations; // not positive definite: the factorization will say so
 			const double step = now / curvature;
 			for (std::size_t i = 0; i < x.size(); ++i) {
 				x[i] += step * direction[i];
@@ -237,7 +246,8 @@ struct PressureSolver::Implementation {
 		double now = findResidual(b, solution.x), before = std::numeric_limits<double>::infinity();
 		// The recurrence drifts from the true residual, so start afresh from that while it falls.
 		while (now > target && now < 0.5 * before && solution.iterations < maxIterations) {
-			solution.iterations += conjugateGradients(solution.x, 0.5 * target, maxIterations - solution.iterations);
+			solution.iterations +=
+			        conjugateGradients(solution.x, 0.5 * target, maxIterations - solution.iterations);
 			before = std::exchange(now, findResidual(b, solution.x));
 		}
 		solution.residual = now / lengthOfB;
@@ -257,14 +267,16 @@ struct PressureSolver::Implementation {
 PressureSolver::PressureSolver(const PressureSolverOptions& options)
         : self(std::make_unique<Implementation>())
 {
-	if (!(options.tolerance > 0)) refuse("tolerance of the pressure solver = " + std::to_string(options.tolerance) + ", allowed: > 0");
+	if (!(options.tolerance > 0))
+		refuse("tolerance of the pressure solver = " + std::to_string(options.tolerance) + ", allowed: > 0");
 	if (options.maxIterations < 0)
-		refuse("maxIterations of the pressure solver = " + std::to_string(options.maxIterations) + ", allowed: >= 0");
+		refuse("maxIterations of the pressure solver = " + std::to_string(options.maxIterations)
+		        + ", allowed: >= 0");
 	self->options = options;
 }
 
-PressureSolver::~PressureSolver()                                    = default;
-PressureSolver::PressureSolver(PressureSolver&&) noexcept            = default;
+PressureSolver::~PressureSolver() = default;
+PressureSolver::PressureSolver(PressureSolver&&) noexcept = default;
 PressureSolver& PressureSolver::operator=(PressureSolver&&) noexcept = default;
 
 void PressureSolver::reset() { *this = PressureSolver(self->options); }
@@ -280,9 +292,11 @@ void PressureSolver::recall(const PressureSolverMemory& memory)
 	reset();
 	if (memory.start.empty()) return;
 	const int n = static_cast<int>(memory.start.size()) - 1;
-	bool      fits = memory.start.front() == 0 && memory.row.size() == memory.value.size() && memory.start.back() == static_cast<int>(memory.row.size());
+	bool fits = memory.start.front() == 0 && memory.row.size() == memory.value.size()
+	        && memory.start.back() == static_cast<int>(memory.row.size());
 	for (int j = 0; fits && j < n; ++j) {
-		fits = memory.start[j] < memory.start[j + 1] && memory.start[j + 1] <= memory.start.back() && memory.row[memory.start[j]] == j;
+		fits = memory.start[j] < memory.start[j + 1] && memory.start[j + 1] <= memory.start.back()
+		        && memory.row[memory.start[j]] == j;
 		for (int k = memory.start[j] + 1; fits && k < memory.start[j + 1]; ++k)
 			fits = memory.row[k] > memory.row[k - 1] && memory.row[k] < n;
 	}
@@ -299,10 +313,10 @@ void PressureSolver::recall(const PressureSolverMemory& memory)
 PressureSolution PressureSolver::solve(const PressureSystem& system, const std::vector<double>& b)
 {
 	checkNumbers(system, b);
-	LowerTriangle    matrix = assemble(system);
+	LowerTriangle matrix = assemble(system);
 	PressureSolution solution;
 	solution.analysed = !self->factor.ready || !matrix.samePattern(self->matrix);
-	self->matrix      = std::move(matrix);
+	self->matrix = std::move(matrix);
 	const double lengthOfB = length(b);
 	if (lengthOfB == 0) {
 		solution.x.assign(b.size(), 0);
@@ -313,10 +327,11 @@ PressureSolution PressureSolver::solve(const PressureSystem& system, const std::
 	self->factorize(solution.analysed);
 	solution.factored = true;
 	constexpr int refinements = 10; // with its own factor one is the rule
-	if (self->attempt(b, lengthOfB, refinements, solution) || self->atRoundOff(b, lengthOfB, solution)) return solution;
+	if (self->attempt(b, lengthOfB, refinements, solution) || self->atRoundOff(b, lengthOfB, solution))
+		return solution;
 	std::ostringstream text;
-	text << "the pressures were not found: relative residual " << solution.residual << " after a new factorization, allowed: "
-	     << self->options.tolerance;
+	text << "the pressures were not found: relative residual " << solution.residual
+	     << " after a new factorization, allowed: " << self->options.tolerance;
 	refuse(text.str());
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// Solves the symmetric positive definite systems of flow: diagonal + graph Laplacian + more.
@@ -17,11 +18,11 @@ namespace capfrac {
 struct PressureSystem {
 	/// Adds `value` to (row, column), and to (column, row) where that is another place.
 	struct Entry {
-		int    row = 0, column = 0;
+		int row = 0, column = 0;
 		double value = 0;
 	};
 	std::vector<double> diagonal; ///< one per unknown
-	std::vector<Entry>  entries;
+	std::vector<Entry> entries;
 
 	/// Adds a throat: G (x_a - x_b) to equation a, the opposite to equation b.
 	void addThroat(int a, int b, double conductance)
@@ -33,16 +34,16 @@ struct PressureSystem {
 };
 
 struct PressureSolverOptions {
-	double tolerance     = 1e-12; ///< of the residual, relative to the right-hand side, both in the 2-norm; > 0
-	int    maxIterations = 12;    ///< with an old factor, before a new one is made; >= 0
+	double tolerance = 1e-12; ///< of the residual, relative to the right-hand side, both in the 2-norm; > 0
+	int maxIterations = 12;   ///< with an old factor, before a new one is made; >= 0
 };
 
 struct PressureSolution {
 	std::vector<double> x;
-	double              residual   = 0; ///< |b - A x|/|b|, computed from x; 0 for b = 0
-	int                 iterations = 0; ///< of conjugate gradients, with the factor that led to the solution
-	bool                factored   = false; ///< a new factor was made
-	bool                analysed   = false; ///< the pattern was new
+	double residual = 0;   ///< |b - A x|/|b|, computed from x; 0 for b = 0
+	int iterations = 0;    ///< of conjugate gradients, with the factor that led to the solution
+	bool factored = false; ///< a new factor was made
+	bool analysed = false; ///< the pattern was new
 };
 
 /// A system that has no solution, or none to the accuracy asked for.
@@ -50,11 +51,11 @@ struct PressureSolverError : std::runtime_error {
 	using std::runtime_error::runtime_error;
 };
 
-/// What a solver remembers: the matrix that it has a factor of, its lower triangle by columns, rows ascending. Empty: none.
-/// A solver that recalls it goes on with the same bits: the factor follows from the matrix.
+/// What a solver remembers: the matrix that it has a factor of, its lower triangle by columns, rows ascending. Empty:
+/// none. A solver that recalls it goes on with the same bits: the factor follows from the matrix.
 struct PressureSolverMemory {
-	std::vector<int>    start; ///< of each column in `row`, and the end
-	std::vector<int>    row;
+	std::vector<int> start; ///< of each column in `row`, and the end
+	std::vector<int> row;
 	std::vector<double> value;
 };
 
@@ -78,7 +79,8 @@ public:
 	void reset();
 
 	PressureSolverMemory memory() const;
-	/// Becomes the solver whose memory this is. Throws PressureSolverError, and has then forgotten all, where it is not that of a positive definite matrix.
+	/// Becomes the solver whose memory this is. Throws PressureSolverError, and has then forgotten all, where it is
+	/// not that of a positive definite matrix.
 	void recall(const PressureSolverMemory& memory);
 
 private:

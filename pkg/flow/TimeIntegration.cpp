@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "Assembly.hpp"
 
 #include <algorithm>
@@ -13,9 +14,11 @@ namespace {
 	{
 		if (newVolume.empty()) return volumesOf(network);
 		if (newVolume.size() != network.pores.size())
-			refuseStep("number of new volumes", static_cast<double>(newVolume.size()), std::to_string(network.pores.size()) + ", one per pore");
+			refuseStep("number of new volumes", static_cast<double>(newVolume.size()),
+			        std::to_string(network.pores.size()) + ", one per pore");
 		for (std::size_t i = 0; i < newVolume.size(); ++i)
-			if (!(newVolume[i] > 0 && std::isfinite(newVolume[i]))) refuseStep("pore " + std::to_string(i) + ": new volume [m^3]", newVolume[i], "> 0");
+			if (!(newVolume[i] > 0 && std::isfinite(newVolume[i])))
+				refuseStep("pore " + std::to_string(i) + ": new volume [m^3]", newVolume[i], "> 0");
 		return newVolume;
 	}
 
@@ -30,7 +33,8 @@ namespace {
 double explicitTimeStepLimit(const FlowNetwork& network)
 {
 	checkNetwork(network);
-	if (network.incompressible()) throw FlowError("no explicit step is short enough for an incompressible fluid; take an implicit one");
+	if (network.incompressible())
+		throw FlowError("no explicit step is short enough for an incompressible fluid; take an implicit one");
 	std::vector<double> conductance(network.pores.size(), 0);
 	for (const FlowThroat& t : network.throats)
 		conductance[t.a] += t.conductance, conductance[t.b] += t.conductance;
@@ -43,7 +47,8 @@ double explicitTimeStepLimit(const FlowNetwork& network)
 	return limit;
 }
 
-FlowStep explicitStep(FlowNetwork& network, const std::vector<double>& newVolume, double dt, const GrainCompression& compression)
+FlowStep explicitStep(
+        FlowNetwork& network, const std::vector<double>& newVolume, double dt, const GrainCompression& compression)
 {
 	checkStep(dt);
 	const double limit = explicitTimeStepLimit(network);
@@ -54,21 +59,22 @@ FlowStep explicitStep(FlowNetwork& network, const std::vector<double>& newVolume
 		refuseStep("explicit time step of the flow [s]", dt, allowed.str());
 	}
 	FlowStep step;
-	step.volume           = endVolumes(network, newVolume);
+	step.volume = endVolumes(network, newVolume);
 	const double response = laggedResponse(compression, step.volume, network.bulkModulus);
 	if (!(response < 1))
-		refuseStep("share of its change of pressure that a pore loses to grains which the fluid compresses [-]", response,
-		           "< 1 in the explicit scheme (stiffer grains, or an implicit scheme)");
+		refuseStep("share of its change of pressure that a pore loses to grains which the fluid compresses [-]",
+		        response, "< 1 in the explicit scheme (stiffer grains, or an implicit scheme)");
 	step.pressure = pressuresOf(network);
 	findFlows(network, step);
 	moveMass(network, dt, step);
 	setVolumes(network, step.volume);
 	step.pressure = pressuresOf(network);
-	step.growth   = radiusGrowth(compression, step.pressure);
+	step.growth = radiusGrowth(compression, step.pressure);
 	return step;
 }
 
-FlowStep implicitStep(FlowNetwork& network, const std::vector<double>& newVolume, double dt, PressureSolver& solver, const GrainCompression& compression)
+FlowStep implicitStep(FlowNetwork& network, const std::vector<double>& newVolume, double dt, PressureSolver& solver,
+        const GrainCompression& compression)
 {
 	checkStep(dt);
 	checkNetwork(network);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "TwoFluids.hpp"
 #include "FlowNetwork.hpp"
 
@@ -32,22 +33,32 @@ namespace {
 		if (!notNegative(pore.water)) refuse(named("water [m^3]"), pore.water, ">= 0", i);
 		if (!notNegative(pore.gas)) refuse(named("gas [m^3]"), pore.gas, ">= 0", i);
 		if (!notNegative(pore.held)) refuse(named("held pressure [Pa]"), pore.held, ">= 0", i);
-		if (!notNegative(pore.bodyPressure)) refuse(named("capillary pressure in the body [Pa]"), pore.bodyPressure, ">= 0", i);
+		if (!notNegative(pore.bodyPressure))
+			refuse(named("capillary pressure in the body [Pa]"), pore.bodyPressure, ">= 0", i);
 		if (!std::isfinite(pore.pressure)) refuse(named("pressure [Pa]"), pore.pressure, "a finite number", i);
-		if (!isFinite(pore.head)) refuse(named("head [Pa]"), std::isfinite(pore.head.water) ? pore.head.gas : pore.head.water, "a finite number", i);
+		if (!isFinite(pore.head))
+			refuse(named("head [Pa]"), std::isfinite(pore.head.water) ? pore.head.gas : pore.head.water,
+			        "a finite number", i);
 		if (!std::isfinite(pore.source)) refuse(named("source [m^3/s]"), pore.source, "a finite number", i);
-		if (pore.fixedPressure && !std::isfinite(*pore.fixedPressure)) refuse(named("prescribed pressure [Pa]"), *pore.fixedPressure, "a finite number", i);
+		if (pore.fixedPressure && !std::isfinite(*pore.fixedPressure))
+			refuse(named("prescribed pressure [Pa]"), *pore.fixedPressure, "a finite number", i);
 	}
 
 } // namespace
 
 void checkTwoFluids(const TwoFluids& fluids)
 {
-	if (!positive(fluids.waterBulkModulus)) refuse("bulk modulus of the water [Pa]", fluids.waterBulkModulus, "finite and > 0");
-	if (!positive(fluids.waterViscosity)) refuse("viscosity of the water [Pa s]", fluids.waterViscosity, "finite and > 0");
-	if (!positive(fluids.gasViscosity)) refuse("viscosity of the gas [Pa s]", fluids.gasViscosity, "finite and > 0");
-	if (!positive(fluids.datum)) refuse("absolute pressure at gauge pressure zero [Pa]", fluids.datum, "finite and > 0");
-	if (fluids.gas.law == GasLaw::incompressible) throw FlowError("equation of state of the gas: incompressible, allowed: ideal, tabulated (its pressure has to follow from its mass)");
+	if (!positive(fluids.waterBulkModulus))
+		refuse("bulk modulus of the water [Pa]", fluids.waterBulkModulus, "finite and > 0");
+	if (!positive(fluids.waterViscosity))
+		refuse("viscosity of the water [Pa s]", fluids.waterViscosity, "finite and > 0");
+	if (!positive(fluids.gasViscosity))
+		refuse("viscosity of the gas [Pa s]", fluids.gasViscosity, "finite and > 0");
+	if (!positive(fluids.datum))
+		refuse("absolute pressure at gauge pressure zero [Pa]", fluids.datum, "finite and > 0");
+	if (fluids.gas.law == GasLaw::incompressible)
+		throw FlowError("equation of state of the gas: incompressible, allowed: ideal, tabulated (its pressure "
+		                "has to follow from its mass)");
 	checkEquationOfState(fluids.gas);
 }
 
@@ -58,35 +69,53 @@ void checkTwoFluidNetwork(const TwoFluidNetwork& network)
 	for (int i = 0; i < n; ++i)
 		checkPore(i, network.pores[i]);
 	for (std::size_t t = 0; t < network.throats.size(); ++t) {
-		const auto&       throat = network.throats[t];
-		if (throat.a >= 0 && throat.a < n && throat.b >= 0 && throat.b < n && throat.a != throat.b && notNegative(throat.conductance) && notNegative(throat.entryPressure)
-		    && isFinite(throat.head))
+		const auto& throat = network.throats[t];
+		if (throat.a >= 0 && throat.a < n && throat.b >= 0 && throat.b < n && throat.a != throat.b
+		        && notNegative(throat.conductance) && notNegative(throat.entryPressure)
+		        && isFinite(throat.head))
 			continue;
 		const std::string name = "throat " + std::to_string(t) + ": ";
-		if (!notNegative(throat.conductance)) refuse(name + "conductance times viscosity [m^3]", throat.conductance, ">= 0");
-		if (!notNegative(throat.entryPressure)) refuse(name + "entry pressure [Pa]", throat.entryPressure, ">= 0");
-		if (!isFinite(throat.head)) refuse(name + "head [Pa]", std::isfinite(throat.head.water) ? throat.head.gas : throat.head.water, "a finite number");
-		throw FlowError(name + "joins pores " + std::to_string(throat.a) + " and " + std::to_string(throat.b) + ", allowed: two different ones of " + std::to_string(n));
+		if (!notNegative(throat.conductance))
+			refuse(name + "conductance times viscosity [m^3]", throat.conductance, ">= 0");
+		if (!notNegative(throat.entryPressure))
+			refuse(name + "entry pressure [Pa]", throat.entryPressure, ">= 0");
+		if (!isFinite(throat.head))
+			refuse(name + "head [Pa]",
+			        std::isfinite(throat.head.water) ? throat.head.gas : throat.head.water,
+			        "a finite number");
+		throw FlowError(name + "joins pores " + std::to_string(throat.a) + " and " + std::to_string(throat.b)
+		        + ", allowed: two different ones of " + std::to_string(n));
 	}
-	if (!notNegative(network.filmConductance)) refuse("conductance of films [m^3/(Pa s)]", network.filmConductance, ">= 0");
-	if (!std::isfinite(network.filmPressure)) refuse("pressure at the end of films [Pa]", network.filmPressure, "a finite number");
+	if (!notNegative(network.filmConductance))
+		refuse("conductance of films [m^3/(Pa s)]", network.filmConductance, ">= 0");
+	if (!std::isfinite(network.filmPressure))
+		refuse("pressure at the end of films [Pa]", network.filmPressure, "a finite number");
 }
 
-double gasRatio(const TwoFluids& fluids, double pressure) { return gasDensity(fluids.gas, fluids.datum + pressure) / gasDensity(fluids.gas, fluids.datum); }
+double gasRatio(const TwoFluids& fluids, double pressure)
+{
+	return gasDensity(fluids.gas, fluids.datum + pressure) / gasDensity(fluids.gas, fluids.datum);
+}
 
 double gasRatioDerivative(const TwoFluids& fluids, double pressure)
 {
 	return gasDensityDerivative(fluids.gas, fluids.datum + pressure) / gasDensity(fluids.gas, fluids.datum);
 }
 
-double waterVolume(const TwoFluids& fluids, double amount, double pressure) { return amount / (1 + pressure / fluids.waterBulkModulus); }
+double waterVolume(const TwoFluids& fluids, double amount, double pressure)
+{
+	return amount / (1 + pressure / fluids.waterBulkModulus);
+}
 
-double gasVolume(const TwoFluids& fluids, double amount, double pressure) { return amount == 0 ? 0 : amount / gasRatio(fluids, pressure); }
+double gasVolume(const TwoFluids& fluids, double amount, double pressure)
+{
+	return amount == 0 ? 0 : amount / gasRatio(fluids, pressure);
+}
 
 double storageOf(const TwoFluids& fluids, double water, double gas, double pressure, double held)
 {
 	const double squeezed = 1 + pressure / fluids.waterBulkModulus;
-	const double ofWater  = water / (fluids.waterBulkModulus * squeezed * squeezed);
+	const double ofWater = water / (fluids.waterBulkModulus * squeezed * squeezed);
 	if (gas == 0) return ofWater;
 	const double ratio = gasRatio(fluids, pressure + held);
 	return ofWater + gas * gasRatioDerivative(fluids, pressure + held) / (ratio * ratio);
@@ -99,8 +128,9 @@ std::vector<std::uint8_t> lockedPores(const TwoFluidNetwork& network)
 	for (std::size_t i = 0; i < network.pores.size(); ++i)
 		if (!network.pores[i].isGas) water.pores[i].fixedPressure = network.pores[i].fixedPressure;
 	for (const auto& t : network.throats)
-		if (!network.pores[t.a].isGas && !network.pores[t.b].isGas) water.throats.push_back({ t.a, t.b, t.conductance });
-	const auto                clusters = findClusters(water);
+		if (!network.pores[t.a].isGas && !network.pores[t.b].isGas)
+			water.throats.push_back({ t.a, t.b, t.conductance });
+	const auto clusters = findClusters(water);
 	std::vector<std::uint8_t> locked;
 	for (std::size_t i = 0; i < network.pores.size(); ++i)
 		locked.push_back(!network.pores[i].isGas && !clusters.grounded[clusters.ofPore[i]]);
@@ -113,11 +143,13 @@ double waterExcess(const TwoFluidNetwork& network)
 	for (const auto& pore : network.pores) {
 		if (pore.isGas) continue;
 		if (pore.source != 0) return 0;
-		if (pore.fixedPressure) low = std::min(low, *pore.fixedPressure - pore.head.water), high = std::max(high, *pore.fixedPressure - pore.head.water);
+		if (pore.fixedPressure)
+			low = std::min(low, *pore.fixedPressure - pore.head.water),
+			high = std::max(high, *pore.fixedPressure - pore.head.water);
 	}
 	if (low > high) return 0;
 	const auto locked = lockedPores(network);
-	double     sum = 0, volume = 0;
+	double sum = 0, volume = 0;
 	for (std::size_t i = 0; i < network.pores.size(); ++i) {
 		const auto& pore = network.pores[i];
 		if (pore.isGas || locked[i]) continue;

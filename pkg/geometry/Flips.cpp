@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "Flips.hpp"
 #include "PowerPoints.hpp"
 
@@ -16,7 +17,10 @@ namespace {
 	};
 
 	/// Which vertex of the cell `id` is: 0, 1, 2, or 3 for none.
-	int placeOf(const std::array<int, 3>& ids, int id) { return static_cast<int>(std::find(ids.begin(), ids.end(), id) - ids.begin()); }
+	int placeOf(const std::array<int, 3>& ids, int id)
+	{
+		return static_cast<int>(std::find(ids.begin(), ids.end(), id) - ids.begin());
+	}
 
 	bool byEnds(const Edge& e, const Edge& f) { return std::make_pair(e.a, e.b) < std::make_pair(f.a, f.b); }
 
@@ -30,7 +34,9 @@ namespace {
 
 	Cell smallestFirst(const Cell& cell)
 	{
-		return startingAt(cell, static_cast<int>(std::min_element(cell.vertex.begin(), cell.vertex.end()) - cell.vertex.begin()));
+		return startingAt(cell,
+		        static_cast<int>(
+		                std::min_element(cell.vertex.begin(), cell.vertex.end()) - cell.vertex.begin()));
 	}
 
 	/// The cells of a triangulation while edges are flipped. Two cells that change take the places of the two
@@ -60,8 +66,8 @@ namespace {
 		}
 
 		std::vector<Cell> cells;
-		std::vector<char> changed;   ///< per place: whether a flip has written it
-		int               count = 0; ///< flips made
+		std::vector<char> changed; ///< per place: whether a flip has written it
+		int count = 0;             ///< flips made
 
 	private:
 		bool fails(const Side& side) const
@@ -75,13 +81,15 @@ namespace {
 		/// not make a strictly convex quadrilateral.
 		bool flip(const Side& side)
 		{
-			const int  c = side.cell, k = placeOf(cells[c].vertex, side.apex), d = cells[c].neighbour[k];
-			const int  p = side.apex, q = apexAcross(cells[c], k, cells[d]);
-			const Cell above = startingAt(cells[c], k), below = startingAt(cells[d], placeOf(cells[d].vertex, q));
-			const int  a = above.vertex[1], b = above.vertex[2];
+			const int c = side.cell, k = placeOf(cells[c].vertex, side.apex), d = cells[c].neighbour[k];
+			const int p = side.apex, q = apexAcross(cells[c], k, cells[d]);
+			const Cell above = startingAt(cells[c], k),
+			           below = startingAt(cells[d], placeOf(cells[d].vertex, q));
+			const int a = above.vertex[1], b = above.vertex[2];
 			const Cell first { { p, a, q }, { below.neighbour[1], d, above.neighbour[2] } };
 			const Cell second { { p, q, b }, { below.neighbour[2], above.neighbour[1], c } };
-			if (!points.isCounterClockwise(first.vertex) || !points.isCounterClockwise(second.vertex)) return false;
+			if (!points.isCounterClockwise(first.vertex) || !points.isCounterClockwise(second.vertex))
+				return false;
 			write(c, first);
 			write(d, second);
 			replaceNeighbour(first.neighbour[0], d, c);
@@ -94,7 +102,7 @@ namespace {
 
 		void write(int c, const Cell& cell)
 		{
-			cells[c]   = smallestFirst(cell);
+			cells[c] = smallestFirst(cell);
 			changed[c] = 1;
 		}
 
@@ -104,13 +112,13 @@ namespace {
 		}
 
 		const PowerPoints& points;
-		std::vector<Side>  suspects;
+		std::vector<Side> suspects;
 	};
 
 	/// The numbers that sort the cells by vertex, where only those that changed are out of order.
 	std::vector<int> sortedCells(const Flipping& flipping)
 	{
-		const auto&      cells = flipping.cells;
+		const auto& cells = flipping.cells;
 		std::vector<int> kept, moved, order(cells.size());
 		kept.reserve(cells.size());
 		for (int c = 0; c < static_cast<int>(cells.size()); ++c)
@@ -129,8 +137,10 @@ namespace {
 			if (!flipping.changed[c]) continue;
 			const Cell& cell = flipping.cells[c];
 			for (int k = 0; k < 3; ++k) {
-				const int from = cell.vertex[(k + 1) % 3], to = cell.vertex[(k + 2) % 3], other = cell.neighbour[k];
-				if (mesh.isWall(std::min(from, to)) || (flipping.changed[other] && other < c)) continue; // or seen from the other cell
+				const int from = cell.vertex[(k + 1) % 3], to = cell.vertex[(k + 2) % 3],
+				          other = cell.neighbour[k];
+				if (mesh.isWall(std::min(from, to)) || (flipping.changed[other] && other < c))
+					continue; // or seen from the other cell
 				edges.push_back(from < to ? Edge { from, to, c, other } : Edge { to, from, other, c });
 			}
 		}
@@ -142,7 +152,7 @@ namespace {
 	/// cells that kept their vertices stays; sorting all cells and sides would cost several times the checks.
 	void takeOver(Triangulation& mesh, const Flipping& flipping)
 	{
-		const auto        fresh = changedEdges(mesh, flipping);
+		const auto fresh = changedEdges(mesh, flipping);
 		std::vector<Edge> kept, edges;
 		kept.reserve(mesh.edges.size());
 		edges.reserve(mesh.edges.size());
@@ -150,17 +160,17 @@ namespace {
 			if (!flipping.changed[e.left] && !flipping.changed[e.right]) kept.push_back(e);
 		std::merge(kept.begin(), kept.end(), fresh.begin(), fresh.end(), std::back_inserter(edges), byEnds);
 
-		const auto       order = sortedCells(flipping);
+		const auto order = sortedCells(flipping);
 		std::vector<int> newNumber(order.size());
 		for (std::size_t c = 0; c < order.size(); ++c) {
 			newNumber[order[c]] = static_cast<int>(c);
-			mesh.cells[c]       = flipping.cells[order[c]];
+			mesh.cells[c] = flipping.cells[order[c]];
 		}
 		for (Cell& cell : mesh.cells)
 			for (int& other : cell.neighbour)
 				if (other >= 0) other = newNumber[other];
 		for (Edge& e : edges) {
-			e.left  = newNumber[e.left];
+			e.left = newNumber[e.left];
 			e.right = newNumber[e.right];
 		}
 		mesh.edges = std::move(edges);
@@ -173,7 +183,8 @@ namespace {
 			const Cell& cell = mesh.cells[c];
 			if (!points.isCounterClockwise(cell.vertex)) return false;
 			for (int k = 0; k < 3; ++k)
-				if (cell.neighbour[k] > c && !isLocallyRegular(mesh.cells, c, k, points)) suspects.push_back({ c, cell.vertex[k] });
+				if (cell.neighbour[k] > c && !isLocallyRegular(mesh.cells, c, k, points))
+					suspects.push_back({ c, cell.vertex[k] });
 		}
 		return true;
 	}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// A triangulation that follows its grains by local flips instead of being made anew.
@@ -20,7 +21,7 @@ namespace capfrac {
 
 /// What flipToRegular() did.
 struct Flips {
-	int  count = 0;    ///< flips made; 0 where not done
+	int count = 0;     ///< flips made; 0 where not done
 	bool done = false; ///< whether the triangulation now is regular
 };
 

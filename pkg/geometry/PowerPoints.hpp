@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// The weighted points of a power triangulation and the exact predicates on them.
@@ -16,7 +17,7 @@ namespace capfrac {
 
 class PowerPoints {
 public:
-	using Kernel        = CGAL::Exact_predicates_inexact_constructions_kernel;
+	using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 	using WeightedPoint = Kernel::Weighted_point_2;
 
 	PowerPoints(const std::vector<Disk>& grains, const Box& box)
@@ -28,7 +29,7 @@ public:
 			points.push_back(weightedWall(w, box));
 	}
 
-	int                  size() const { return static_cast<int>(points.size()); }
+	int size() const { return static_cast<int>(points.size()); }
 	const WeightedPoint& operator[](int vertex) const { return points[vertex]; }
 
 	/// Whether the three vertices are in counter-clockwise order and not on one line.
@@ -51,20 +52,21 @@ private:
 	static WeightedPoint weightedWall(int wall, const Box& box)
 	{
 		const double radius = wallRadiusInBoxes * std::max(box.width(), box.height());
-		const Vec2   middle { 0.5 * (box.left + box.right), 0.5 * (box.bottom + box.top) };
-		const Vec2   centre = box.foot(wall, middle) + radius * Box::outward(wall);
+		const Vec2 middle { 0.5 * (box.left + box.right), 0.5 * (box.bottom + box.top) };
+		const Vec2 centre = box.foot(wall, middle) + radius * Box::outward(wall);
 		return WeightedPoint(Kernel::Point_2(centre.x, centre.y), radius * radius);
 	}
 
-	Kernel::Orientation_2                         orientation;
+	Kernel::Orientation_2 orientation;
 	Kernel::Power_side_of_oriented_power_circle_2 powerSide;
-	std::vector<WeightedPoint>                    points;
+	std::vector<WeightedPoint> points;
 };
 
 /// The vertex of `other`, the neighbour of `cell` across its edge k, that is not on that edge.
 inline int apexAcross(const Cell& cell, int k, const Cell& other)
 {
-	return other.vertex[0] + other.vertex[1] + other.vertex[2] - cell.vertex[(k + 1) % 3] - cell.vertex[(k + 2) % 3];
+	return other.vertex[0] + other.vertex[1] + other.vertex[2] - cell.vertex[(k + 1) % 3]
+	        - cell.vertex[(k + 2) % 3];
 }
 
 /// Whether the edge of cell c opposite to its vertex k is locally regular: the vertex across does not lie

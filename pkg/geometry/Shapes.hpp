@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// Plain shapes of the two-dimensional model: points, disks and the box of four walls.
@@ -15,11 +16,11 @@ struct Vec2 {
 	double y = 0;
 };
 
-inline Vec2   operator+(Vec2 a, Vec2 b) { return { a.x + b.x, a.y + b.y }; }
-inline Vec2   operator-(Vec2 a, Vec2 b) { return { a.x - b.x, a.y - b.y }; }
-inline Vec2   operator*(double s, Vec2 a) { return { s * a.x, s * a.y }; }
-inline Vec2&  operator+=(Vec2& a, Vec2 b) { return a = a + b; }
-inline Vec2&  operator-=(Vec2& a, Vec2 b) { return a = a - b; }
+inline Vec2 operator+(Vec2 a, Vec2 b) { return { a.x + b.x, a.y + b.y }; }
+inline Vec2 operator-(Vec2 a, Vec2 b) { return { a.x - b.x, a.y - b.y }; }
+inline Vec2 operator*(double s, Vec2 a) { return { s * a.x, s * a.y }; }
+inline Vec2& operator+=(Vec2& a, Vec2 b) { return a = a + b; }
+inline Vec2& operator-=(Vec2& a, Vec2 b) { return a = a - b; }
 inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
@@ -28,7 +29,7 @@ inline Vec2 turned(Vec2 a) { return { -a.y, a.x }; }
 
 /// A grain: a disk of unit thickness.
 struct Disk {
-	Vec2   centre;     ///< [m]
+	Vec2 centre;       ///< [m]
 	double radius = 0; ///< [m], > 0
 };
 
@@ -48,10 +49,14 @@ struct Box {
 	double distance(int wall, Vec2 p) const
 	{
 		switch (wall) {
-			case wallLeft: return p.x - left;
-			case wallRight: return right - p.x;
-			case wallBottom: return p.y - bottom;
-			default: return top - p.y;
+		case wallLeft:
+			return p.x - left;
+		case wallRight:
+			return right - p.x;
+		case wallBottom:
+			return p.y - bottom;
+		default:
+			return top - p.y;
 		}
 	}
 
@@ -59,10 +64,14 @@ struct Box {
 	Vec2 foot(int wall, Vec2 p) const
 	{
 		switch (wall) {
-			case wallLeft: return { left, p.y };
-			case wallRight: return { right, p.y };
-			case wallBottom: return { p.x, bottom };
-			default: return { p.x, top };
+		case wallLeft:
+			return { left, p.y };
+		case wallRight:
+			return { right, p.y };
+		case wallBottom:
+			return { p.x, bottom };
+		default:
+			return { p.x, top };
 		}
 	}
 

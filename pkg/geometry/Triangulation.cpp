@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "PowerPoints.hpp"
 
 #include <CGAL/Regular_triangulation_2.h>
@@ -11,10 +12,11 @@ namespace capfrac {
 namespace {
 
 	using Kernel = PowerPoints::Kernel;
-	using VertexBase
-	        = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel, CGAL::Regular_triangulation_vertex_base_2<Kernel>>;
-	using FaceBase         = CGAL::Regular_triangulation_face_base_2<Kernel>;
-	using PowerTriangulation = CGAL::Regular_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+	using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel,
+	        CGAL::Regular_triangulation_vertex_base_2<Kernel>>;
+	using FaceBase = CGAL::Regular_triangulation_face_base_2<Kernel>;
+	using PowerTriangulation =
+	        CGAL::Regular_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
 
 	std::array<int, 3> smallestFirst(std::array<int, 3> v)
 	{
@@ -37,8 +39,9 @@ namespace {
 			seen[v->info()] = 1;
 		for (std::size_t i = 0; i < nGrains; ++i)
 			if (!seen[i])
-				throw GeometryError(static_cast<int>(i), "has no room of its own: it coincides with another grain or lies within its"
-				                                         " neighbours (overlaps must be small against the radii)");
+				throw GeometryError(static_cast<int>(i),
+				        "has no room of its own: it coincides with another grain or lies within its"
+				        " neighbours (overlaps must be small against the radii)");
 	}
 
 } // namespace
@@ -46,7 +49,8 @@ namespace {
 void checkGrains(const std::vector<Disk>& grains, const Box& box)
 {
 	if (grains.empty()) throw GeometryError(-1, "no grains: the network needs at least one disk in the box");
-	const bool finite = std::isfinite(box.left) && std::isfinite(box.right) && std::isfinite(box.bottom) && std::isfinite(box.top);
+	const bool finite = std::isfinite(box.left) && std::isfinite(box.right) && std::isfinite(box.bottom)
+	        && std::isfinite(box.top);
 	if (!finite || box.width() <= 0 || box.height() <= 0) {
 		std::ostringstream text;
 		text << "box [" << box.left << ", " << box.right << "] x [" << box.bottom << ", " << box.top
@@ -58,8 +62,10 @@ void checkGrains(const std::vector<Disk>& grains, const Box& box)
 		if (!std::isfinite(g.radius) || g.radius <= 0) refuse(i, "radius [m]", g.radius, "finite and > 0");
 		if (!std::isfinite(g.centre.x)) refuse(i, "x [m]", g.centre.x, "finite");
 		if (!std::isfinite(g.centre.y)) refuse(i, "y [m]", g.centre.y, "finite");
-		if (g.centre.x <= box.left || g.centre.x >= box.right) refuse(i, "x [m]", g.centre.x, "between the left and the right wall");
-		if (g.centre.y <= box.bottom || g.centre.y >= box.top) refuse(i, "y [m]", g.centre.y, "between the bottom and the top wall");
+		if (g.centre.x <= box.left || g.centre.x >= box.right)
+			refuse(i, "x [m]", g.centre.x, "between the left and the right wall");
+		if (g.centre.y <= box.bottom || g.centre.y >= box.top)
+			refuse(i, "y [m]", g.centre.y, "between the bottom and the top wall");
 	}
 }
 
@@ -68,7 +74,7 @@ Triangulation triangulate(const std::vector<Disk>& grains, const Box& box)
 	checkGrains(grains, box);
 
 	// The pairs are inserted in CGAL's own spatial order; the result does not depend on the numbering.
-	const PowerPoints                                       weighted(grains, box);
+	const PowerPoints weighted(grains, box);
 	std::vector<std::pair<PowerPoints::WeightedPoint, int>> points;
 	points.reserve(weighted.size());
 	for (int v = 0; v < weighted.size(); ++v)
@@ -81,8 +87,10 @@ Triangulation triangulate(const std::vector<Disk>& grains, const Box& box)
 	mesh.nGrains = static_cast<int>(grains.size());
 	mesh.cells.reserve(power.number_of_faces());
 	for (auto f = power.finite_faces_begin(); f != power.finite_faces_end(); ++f)
-		mesh.cells.push_back({ smallestFirst({ f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info() }), {} });
-	std::sort(mesh.cells.begin(), mesh.cells.end(), [](const Cell& a, const Cell& b) { return a.vertex < b.vertex; });
+		mesh.cells.push_back(
+		        { smallestFirst({ f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info() }), {} });
+	std::sort(
+	        mesh.cells.begin(), mesh.cells.end(), [](const Cell& a, const Cell& b) { return a.vertex < b.vertex; });
 	connectCells(mesh);
 	return mesh;
 }
@@ -99,15 +107,14 @@ void connectCells(Triangulation& mesh)
 		for (int k = 0; k < 3; ++k)
 			sides.push_back({ mesh.cells[c].vertex[(k + 1) % 3], mesh.cells[c].vertex[(k + 2) % 3], c, k });
 	auto key = [](const Side& s) { return std::make_pair(std::min(s.from, s.to), std::max(s.from, s.to)); };
-	std::sort(sides.begin(), sides.end(), [&](const Side& p, const Side& q) {
-		return key(p) != key(q) ? key(p) < key(q) : p.cell < q.cell;
-	});
+	std::sort(sides.begin(), sides.end(),
+	        [&](const Side& p, const Side& q) { return key(p) != key(q) ? key(p) < key(q) : p.cell < q.cell; });
 
 	mesh.edges.clear();
 	for (std::size_t i = 0; i < sides.size();) {
-		const bool  paired = i + 1 < sides.size() && key(sides[i]) == key(sides[i + 1]);
-		const auto  ends   = key(sides[i]);
-		const Side& s      = sides[i];
+		const bool paired = i + 1 < sides.size() && key(sides[i]) == key(sides[i + 1]);
+		const auto ends = key(sides[i]);
+		const Side& s = sides[i];
 		mesh.cells[s.cell].neighbour[s.opposite] = paired ? sides[i + 1].cell : -1;
 		if (paired) mesh.cells[sides[i + 1].cell].neighbour[sides[i + 1].opposite] = s.cell;
 		if (!mesh.isWall(ends.first)) {

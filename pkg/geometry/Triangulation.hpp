@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// The partition of the box into cells: one for every vertex of the power diagram of the grains.
@@ -35,12 +36,12 @@ struct Edge {
 };
 
 struct Triangulation {
-	int               nGrains = 0;
+	int nGrains = 0;
 	std::vector<Cell> cells;
 	std::vector<Edge> edges; ///< all edges but those between two walls; sorted by (a, b)
 
 	bool isWall(int vertex) const { return vertex >= nGrains; }
-	int  wallOf(int vertex) const { return vertex - nGrains; }
+	int wallOf(int vertex) const { return vertex - nGrains; }
 };
 
 /// What is wrong with a set of grains that cannot be triangulated. The grain and the finding are there
@@ -52,7 +53,7 @@ struct GeometryError : std::invalid_argument {
 	        , finding(finding_)
 	{
 	}
-	int         grain; ///< -1 where no single grain is at fault
+	int grain; ///< -1 where no single grain is at fault
 	std::string finding;
 };
 

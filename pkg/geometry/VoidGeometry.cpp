@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "VoidGeometry.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ namespace {
 	/// The corner shared by two adjacent walls.
 	Vec2 corner(int wall1, int wall2, const Box& box)
 	{
-		const bool left   = wall1 == wallLeft || wall2 == wallLeft;
+		const bool left = wall1 == wallLeft || wall2 == wallLeft;
 		const bool bottom = wall1 == wallBottom || wall2 == wallBottom;
 		return { left ? box.left : box.right, bottom ? box.bottom : box.top };
 	}
@@ -46,8 +47,8 @@ namespace {
 		return 0.5 * twice;
 	}
 
-	/// First moment of half of a disk's part beyond a chord at `distance`, on one side of the axis through its centre: x along
-	/// the axis, y away from it, about the centre [m^3].
+	/// First moment of half of a disk's part beyond a chord at `distance`, on one side of the axis through its
+	/// centre: x along the axis, y away from it, about the centre [m^3].
 	Vec2 halfSegmentMoment(double r, double distance)
 	{
 		if (distance >= r) return {};
@@ -55,23 +56,24 @@ namespace {
 		return { halfChord * halfChord * halfChord / 3, (r - d) * (r - d) * (2 * r + d) / 6 };
 	}
 
-	/// Area and first moment about the origin of half of the overlap of grain `i` with a grain or wall, the half that lies on the side of
-	/// `side`, a unit vector square to the line of centres.
-	VoidMoments halfOverlap(const Triangulation& mesh, int i, int other, Vec2 side, const std::vector<Disk>& grains, const Box& box)
+	/// Area and first moment about the origin of half of the overlap of grain `i` with a grain or wall, the half
+	/// that lies on the side of `side`, a unit vector square to the line of centres.
+	VoidMoments halfOverlap(
+	        const Triangulation& mesh, int i, int other, Vec2 side, const std::vector<Disk>& grains, const Box& box)
 	{
 		VoidMoments half;
-		auto        add = [&](const Disk& disk, double distance, Vec2 axis) {
-                        const Vec2   moment = halfSegmentMoment(disk.radius, distance);
-                        const double area   = 0.5 * segmentArea(disk.radius, distance);
-                        half.area += area;
-                        half.first += area * disk.centre + moment.x * axis + moment.y * side;
+		auto add = [&](const Disk& disk, double distance, Vec2 axis) {
+			const Vec2 moment = halfSegmentMoment(disk.radius, distance);
+			const double area = 0.5 * segmentArea(disk.radius, distance);
+			half.area += area;
+			half.first += area * disk.centre + moment.x * axis + moment.y * side;
 		};
 		const Disk& a = grains[i];
 		if (mesh.isWall(other)) {
 			add(a, box.distance(mesh.wallOf(other), a.centre), Box::outward(mesh.wallOf(other)));
 			return half;
 		}
-		const Disk&  b        = grains[other];
+		const Disk& b = grains[other];
 		const double distance = norm(b.centre - a.centre);
 		if (distance >= a.radius + b.radius) return half;
 		if (distance <= std::abs(a.radius - b.radius)) {
@@ -79,8 +81,8 @@ namespace {
 			add(inner, -inner.radius, {});
 			return half;
 		}
-		const Vec2   axis = (1 / distance) * (b.centre - a.centre);
-		const double ha   = chordDistance(a.radius, b.radius, distance);
+		const Vec2 axis = (1 / distance) * (b.centre - a.centre);
+		const double ha = chordDistance(a.radius, b.radius, distance);
 		add(a, ha, axis);
 		add(b, distance - ha, -1 * axis);
 		return half;
@@ -98,13 +100,15 @@ namespace {
 	}
 
 	/// Length of a wall that belongs to a cell, measured so that it is positive for a cell that is not turned over.
-	double wallSpan(const Triangulation& mesh, const Cell& cell, int k, const std::vector<Disk>& grains, const Box& box)
+	double wallSpan(
+	        const Triangulation& mesh, const Cell& cell, int k, const std::vector<Disk>& grains, const Box& box)
 	{
-		const int  wall = mesh.wallOf(cell.vertex[k]);
-		const int  next = cell.vertex[(k + 1) % 3], previous = cell.vertex[(k + 2) % 3];
+		const int wall = mesh.wallOf(cell.vertex[k]);
+		const int next = cell.vertex[(k + 1) % 3], previous = cell.vertex[(k + 2) % 3];
 		const Vec2 along = turned(Box::outward(wall)); // counter-clockwise along the border of the box
-		const Vec2 from  = mesh.isWall(previous) ? corner(wall, mesh.wallOf(previous), box) : grains[previous].centre;
-		const Vec2 to    = mesh.isWall(next) ? corner(wall, mesh.wallOf(next), box) : grains[next].centre;
+		const Vec2 from =
+		        mesh.isWall(previous) ? corner(wall, mesh.wallOf(previous), box) : grains[previous].centre;
+		const Vec2 to = mesh.isWall(next) ? corner(wall, mesh.wallOf(next), box) : grains[next].centre;
 		return dot(to - from, along);
 	}
 
@@ -146,7 +150,7 @@ double gap(const Triangulation& mesh, int a, int b, const std::vector<Disk>& gra
 
 std::vector<Vec2> cellPolygon(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box)
 {
-	const auto&       v = mesh.cells[cell].vertex;
+	const auto& v = mesh.cells[cell].vertex;
 	std::vector<Vec2> polygon;
 	for (int k = 0; k < 3; ++k) {
 		if (!mesh.isWall(v[k])) {
@@ -154,8 +158,8 @@ std::vector<Vec2> cellPolygon(const Triangulation& mesh, int cell, const std::ve
 			continue;
 		}
 		const int next = v[(k + 1) % 3], previous = v[(k + 2) % 3];
-		polygon.push_back(
-		        mesh.isWall(previous) ? corner(mesh.wallOf(v[k]), mesh.wallOf(previous), box) : seenFrom(mesh, previous, v[k], grains, box));
+		polygon.push_back(mesh.isWall(previous) ? corner(mesh.wallOf(v[k]), mesh.wallOf(previous), box)
+		                                        : seenFrom(mesh, previous, v[k], grains, box));
 		// Between two walls the corner is named once, by the second of them.
 		if (!mesh.isWall(next)) polygon.push_back(seenFrom(mesh, next, v[k], grains, box));
 	}
@@ -164,7 +168,7 @@ std::vector<Vec2> cellPolygon(const Triangulation& mesh, int cell, const std::ve
 
 Vec2 cellCentre(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box)
 {
-	Vec2       sum;
+	Vec2 sum;
 	const auto polygon = cellPolygon(mesh, cell, grains, box);
 	for (Vec2 p : polygon)
 		sum += p;
@@ -173,15 +177,15 @@ Vec2 cellCentre(const Triangulation& mesh, int cell, const std::vector<Disk>& gr
 
 double voidArea(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box)
 {
-	const auto& v    = mesh.cells[cell].vertex;
-	double      area = polygonArea(cellPolygon(mesh, cell, grains, box));
+	const auto& v = mesh.cells[cell].vertex;
+	double area = polygonArea(cellPolygon(mesh, cell, grains, box));
 	for (int k = 0; k < 3; ++k) {
 		const int i = v[k], next = v[(k + 1) % 3], previous = v[(k + 2) % 3];
 		if (mesh.isWall(i)) continue;
-		const Vec2 x     = grains[i].centre;
-		const Vec2 to    = seenFrom(mesh, i, next, grains, box) - x;
-		const Vec2 from  = seenFrom(mesh, i, previous, grains, box) - x;
-		const double r   = grains[i].radius;
+		const Vec2 x = grains[i].centre;
+		const Vec2 to = seenFrom(mesh, i, next, grains, box) - x;
+		const Vec2 from = seenFrom(mesh, i, previous, grains, box) - x;
+		const double r = grains[i].radius;
 		area -= 0.5 * angleBetween(to, from) * r * r;
 		// Every edge of the cell has exactly one end whose `next` it is; that of two walls has no overlap.
 		area += 0.5 * overlapArea(mesh, i, next, grains, box);
@@ -200,18 +204,20 @@ std::vector<double> voidAreas(const Triangulation& mesh, const std::vector<Disk>
 
 VoidMoments voidMoments(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box)
 {
-	const auto& v     = mesh.cells[cell].vertex;
+	const auto& v = mesh.cells[cell].vertex;
 	VoidMoments found = polygonMoments(cellPolygon(mesh, cell, grains, box));
-	auto        add   = [&](const VoidMoments& part) { found.area += part.area, found.first += part.first; };
+	auto add = [&](const VoidMoments& part) { found.area += part.area, found.first += part.first; };
 	for (int k = 0; k < 3; ++k) {
 		const int i = v[k], next = v[(k + 1) % 3], previous = v[(k + 2) % 3];
 		if (mesh.isWall(i)) continue;
-		const Vec2 x  = grains[i].centre;
-		const Vec2 to = seenFrom(mesh, i, next, grains, box) - x, from = seenFrom(mesh, i, previous, grains, box) - x;
+		const Vec2 x = grains[i].centre;
+		const Vec2 to = seenFrom(mesh, i, next, grains, box) - x,
+		           from = seenFrom(mesh, i, previous, grains, box) - x;
 		const Vec2 toSide = turned((1 / norm(to)) * to), fromSide = turned((1 / norm(from)) * from);
 		const double r = grains[i].radius, sector = 0.5 * angleBetween(to, from) * r * r;
 		found.area -= sector;
-		found.first -= sector * x + r * r * r / 3 * (toSide - fromSide); // the integral of r^2 (cos, sin)/3 over the angle
+		found.first -= sector * x
+		        + r * r * r / 3 * (toSide - fromSide);        // the integral of r^2 (cos, sin)/3 over the angle
 		add(halfOverlap(mesh, i, next, toSide, grains, box)); // the cell is on the left of i -> next
 		if (mesh.isWall(previous)) add(halfOverlap(mesh, i, previous, -1 * fromSide, grains, box));
 	}
@@ -239,22 +245,22 @@ FluidForces fluidForces(
 		if (across == 0 && meanPressure == 0) continue;
 		const Disk& a = grains[e.a];
 		if (mesh.isWall(e.b)) {
-			const int    wall     = mesh.wallOf(e.b);
-			const Vec2   normal   = Box::outward(wall);
+			const int wall = mesh.wallOf(e.b);
+			const Vec2 normal = Box::outward(wall);
 			const double distance = box.distance(wall, a.centre);
-			const Vec2   overlap  = meanPressure * segmentChord(a.radius, distance) * normal;
+			const Vec2 overlap = meanPressure * segmentChord(a.radius, distance) * normal;
 			force.grains[e.a] += overlap - across * distance * turned(normal);
 			force.walls[wall] -= overlap;
 			continue;
 		}
 		// The pressure difference loads the whole edge; the two grains share it where the power bisector
 		// cuts the edge, which is what the sectors' change of angle amounts to.
-		const Disk&  b       = grains[e.b];
-		const Vec2   edge    = b.centre - a.centre;
-		const double length  = norm(edge);
-		const Vec2   normal  = (1 / length) * edge;
-		const double skew    = (b.radius - a.radius) * (b.radius + a.radius) / (2 * length);
-		const Vec2   overlap = meanPressure * lensChord(a.radius, b.radius, length) * normal;
+		const Disk& b = grains[e.b];
+		const Vec2 edge = b.centre - a.centre;
+		const double length = norm(edge);
+		const Vec2 normal = (1 / length) * edge;
+		const double skew = (b.radius - a.radius) * (b.radius + a.radius) / (2 * length);
+		const Vec2 overlap = meanPressure * lensChord(a.radius, b.radius, length) * normal;
 		force.grains[e.a] += overlap - across * (0.5 * length - skew) * turned(normal);
 		force.grains[e.b] -= overlap + across * (0.5 * length + skew) * turned(normal);
 	}
@@ -263,7 +269,8 @@ FluidForces fluidForces(
 		for (int k = 0; k < 3; ++k)
 			if (mesh.isWall(mesh.cells[c].vertex[k])) {
 				const int wall = mesh.wallOf(mesh.cells[c].vertex[k]);
-				force.walls[wall] += pressure[c] * wallSpan(mesh, mesh.cells[c], k, grains, box) * Box::outward(wall);
+				force.walls[wall] += pressure[c] * wallSpan(mesh, mesh.cells[c], k, grains, box)
+				        * Box::outward(wall);
 			}
 	return force;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// Void areas of the cells, gaps of the throats, and how both answer when grains and walls move.
@@ -39,11 +40,11 @@ std::vector<double> voidAreas(const Triangulation& mesh, const std::vector<Disk>
 /// Area [m^2] and first moment [m^3] of a void; the moment is taken about the lower left corner of the box.
 struct VoidMoments {
 	double area = 0;
-	Vec2   first;
+	Vec2 first;
 };
 
-/// Area (to the last bit that of voidArea()) and first moment of the void of one cell. Sums over the cells of a pore, divided, give the centroid of its void, whatever
-/// the cells that it is cut into.
+/// Area (to the last bit that of voidArea()) and first moment of the void of one cell. Sums over the cells of a pore,
+/// divided, give the centroid of its void, whatever the cells that it is cut into.
 VoidMoments voidMoments(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
 
 /// Centre of a cell, for reports and pictures [m]: mean of its corners (grain centres, feet, box corners).
@@ -54,8 +55,8 @@ std::vector<Vec2> cellPolygon(const Triangulation& mesh, int cell, const std::ve
 
 /// Fluid forces per thickness [N/m]: the gradient of sum p V.
 struct FluidForces {
-	std::vector<Vec2>             grains; ///< on the grains
-	std::array<Vec2, nWalls>      walls;  ///< on the walls; only the normal component can differ from zero
+	std::vector<Vec2> grains;       ///< on the grains
+	std::array<Vec2, nWalls> walls; ///< on the walls; only the normal component can differ from zero
 
 	/// Adds other forces on the same grains and walls.
 	FluidForces& operator+=(const FluidForces& other);
@@ -63,7 +64,7 @@ struct FluidForces {
 
 /// Forces of the pressures [Pa] of the cells on grains and walls, F = sum over cells of p dV/dx.
 /// One pass over the edges; the sum over all grains and walls is zero to round-off.
-FluidForces fluidForces(
-        const Triangulation& mesh, const std::vector<double>& pressure, const std::vector<Disk>& grains, const Box& box);
+FluidForces fluidForces(const Triangulation& mesh, const std::vector<double>& pressure, const std::vector<Disk>& grains,
+        const Box& box);
 
 } // namespace capfrac

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "VolumeGradients.hpp"
 
 #include <algorithm>
@@ -25,8 +26,8 @@ namespace {
 
 	/// The matrix under construction: the entries are laid out first, then filled edge by edge.
 	struct Rows {
-		const Triangulation&            mesh;
-		VolumeGradients                 b;
+		const Triangulation& mesh;
+		VolumeGradients b;
 		std::vector<std::array<int, 3>> entry; ///< of vertex k of each cell, in b.grains or b.walls
 
 		explicit Rows(const Triangulation& mesh_)
@@ -34,7 +35,7 @@ namespace {
 		        , entry(mesh_.cells.size())
 		{
 			for (std::size_t c = 0; c < entry.size(); ++c) {
-				const auto&        v     = mesh.cells[c].vertex;
+				const auto& v = mesh.cells[c].vertex;
 				std::array<int, 3> order { 0, 1, 2 };
 				std::sort(order.begin(), order.end(), [&](int k, int l) { return v[k] < v[l]; });
 				for (int k : order)
@@ -58,7 +59,7 @@ namespace {
 			return entry[cell][std::find(v.begin(), v.end(), vertex) - v.begin()];
 		}
 		GrainGradient& ofGrain(int cell, int grain) { return b.grains[entryOf(cell, grain)]; }
-		WallGradient&  ofWall(int cell, int wall) { return b.walls[entryOf(cell, mesh.nGrains + wall)]; }
+		WallGradient& ofWall(int cell, int wall) { return b.walls[entryOf(cell, mesh.nGrains + wall)]; }
 	};
 
 	/// What an edge does to the cells on its sides. The terms are those of fluidForces(), for unit pressure in
@@ -66,12 +67,13 @@ namespace {
 	void addEdge(Rows& rows, const Edge& e, const std::vector<Disk>& grains, const Box& box, Radii radii)
 	{
 		const std::array<std::pair<int, double>, 2> sides { { { e.left, 1 }, { e.right, -1 } } };
-		const Disk&                                 a = grains[e.a];
+		const Disk& a = grains[e.a];
 		if (rows.mesh.isWall(e.b)) {
-			const int    wall     = rows.mesh.wallOf(e.b);
-			const Vec2   normal   = Box::outward(wall);
-			const double distance = box.distance(wall, a.centre), halfChord = 0.5 * segmentChord(a.radius, distance);
-			const double arc      = radii == Radii::vary ? arcBeyond(a.radius, distance) : 0;
+			const int wall = rows.mesh.wallOf(e.b);
+			const Vec2 normal = Box::outward(wall);
+			const double distance = box.distance(wall, a.centre),
+			             halfChord = 0.5 * segmentChord(a.radius, distance);
+			const double arc = radii == Radii::vary ? arcBeyond(a.radius, distance) : 0;
 			for (const auto& [cell, side] : sides) {
 				if (cell < 0) continue;
 				rows.ofGrain(cell, e.a).centre += halfChord * normal - side * distance * turned(normal);
@@ -80,18 +82,21 @@ namespace {
 			}
 			return;
 		}
-		const Disk&  b         = grains[e.b];
-		const Vec2   edge      = b.centre - a.centre;
-		const double length    = norm(edge);
-		const Vec2   normal    = (1 / length) * edge;
-		const double skew      = (b.radius - a.radius) * (b.radius + a.radius) / (2 * length);
+		const Disk& b = grains[e.b];
+		const Vec2 edge = b.centre - a.centre;
+		const double length = norm(edge);
+		const Vec2 normal = (1 / length) * edge;
+		const double skew = (b.radius - a.radius) * (b.radius + a.radius) / (2 * length);
 		const double halfChord = 0.5 * lensChord(a.radius, b.radius, length);
-		const bool   vary      = radii == Radii::vary;
-		const double arcA = vary ? arcWithin(a.radius, b.radius, length) : 0, arcB = vary ? arcWithin(b.radius, a.radius, length) : 0;
+		const bool vary = radii == Radii::vary;
+		const double arcA = vary ? arcWithin(a.radius, b.radius, length) : 0,
+		             arcB = vary ? arcWithin(b.radius, a.radius, length) : 0;
 		for (const auto& [cell, side] : sides) {
 			if (cell < 0) continue;
-			rows.ofGrain(cell, e.a).centre += halfChord * normal - side * (0.5 * length - skew) * turned(normal);
-			rows.ofGrain(cell, e.b).centre -= halfChord * normal + side * (0.5 * length + skew) * turned(normal);
+			rows.ofGrain(cell, e.a).centre +=
+			        halfChord * normal - side * (0.5 * length - skew) * turned(normal);
+			rows.ofGrain(cell, e.b).centre -=
+			        halfChord * normal + side * (0.5 * length + skew) * turned(normal);
 			rows.ofGrain(cell, e.a).radius += 0.5 * arcA;
 			rows.ofGrain(cell, e.b).radius += 0.5 * arcB;
 		}
@@ -106,18 +111,20 @@ namespace {
 	/// Direction in which a grain sees another vertex of its cell.
 	Vec2 towards(const Triangulation& mesh, int grain, int vertex, const std::vector<Disk>& grains)
 	{
-		return mesh.isWall(vertex) ? Box::outward(mesh.wallOf(vertex)) : grains[vertex].centre - grains[grain].centre;
+		return mesh.isWall(vertex) ? Box::outward(mesh.wallOf(vertex))
+		                           : grains[vertex].centre - grains[grain].centre;
 	}
 
 	/// What the corners of a cell do: the sector of a grain that grows, the span of a wall that moves.
 	void addCorner(Rows& rows, int cell, int k, const std::vector<Disk>& grains, const Box& box, Radii radii)
 	{
 		const Triangulation& mesh = rows.mesh;
-		const auto&          v    = mesh.cells[cell].vertex;
-		const int            at = v[k], next = v[(k + 1) % 3], previous = v[(k + 2) % 3];
+		const auto& v = mesh.cells[cell].vertex;
+		const int at = v[k], next = v[(k + 1) % 3], previous = v[(k + 2) % 3];
 		if (mesh.isWall(at)) {
-			const Vec2 along = turned(Box::outward(mesh.wallOf(at))); // counter-clockwise along the border of the box
-			const Vec2 span  = alongWall(mesh, next, grains, box) - alongWall(mesh, previous, grains, box);
+			const Vec2 along =
+			        turned(Box::outward(mesh.wallOf(at))); // counter-clockwise along the border of the box
+			const Vec2 span = alongWall(mesh, next, grains, box) - alongWall(mesh, previous, grains, box);
 			rows.ofWall(cell, mesh.wallOf(at)).outward += dot(span, along);
 			return;
 		}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "Drainage.hpp"
 
 #include "../network/UnionFind.hpp"
@@ -12,10 +13,10 @@ namespace capfrac {
 
 namespace {
 
-	/// Marks what can be reached from `seed` through the domains that `inside` and the throats that `passes` accepts (explicit stack).
-	template <class Inside, class Passes>
-	std::vector<std::uint8_t>
-	reach(const DrainageNetwork& network, const Incidence& incidence, std::vector<std::uint8_t> seed, Inside inside, Passes passes)
+	/// Marks what can be reached from `seed` through the domains that `inside` and the throats that `passes`
+	/// accepts (explicit stack).
+	template <class Inside, class Passes> std::vector<std::uint8_t> reach(const DrainageNetwork& network,
+	        const Incidence& incidence, std::vector<std::uint8_t> seed, Inside inside, Passes passes)
 	{
 		std::vector<int> stack;
 		for (std::size_t d = 0; d < seed.size(); ++d) {
@@ -26,8 +27,8 @@ namespace {
 			const int d = stack.back();
 			stack.pop_back();
 			for (int k = incidence.start[d]; k < incidence.start[d + 1]; ++k) {
-				const Throat& t     = network.throats[incidence.throat[k]];
-				const int     other = otherSide(t, d);
+				const Throat& t = network.throats[incidence.throat[k]];
+				const int other = otherSide(t, d);
 				if (seed[other] || !inside(other) || !passes(t)) continue;
 				seed[other] = 1;
 				stack.push_back(other);
@@ -37,13 +38,14 @@ namespace {
 	}
 
 	/// Invasion without regard to trapping. `absorb`: gas that is met joins in.
-	std::vector<DrainageStep>
-	invade(const DrainageNetwork& network, const Incidence& incidence, double capillaryPressure, bool absorb, int maxSteps, bool untilOutlet)
+	std::vector<DrainageStep> invade(const DrainageNetwork& network, const Incidence& incidence,
+	        double capillaryPressure, bool absorb, int maxSteps, bool untilOutlet)
 	{
-		// The entry pressure is kept beside the throat: networks of a million throats fit no cache, and looking it up took a third of the time.
+		// The entry pressure is kept beside the throat: networks of a million throats fit no cache, and looking
+		// it up took a third of the time.
 		struct Waiting {
 			double entryPressure;
-			int    throat;
+			int throat;
 		};
 		auto later = [&](const Waiting& s, const Waiting& t) {
 			if (s.entryPressure != t.entryPressure) return s.entryPressure > t.entryPressure;
@@ -51,20 +53,22 @@ namespace {
 			return std::tie(p.x, p.y) > std::tie(q.x, q.y);
 		};
 		std::priority_queue<Waiting, std::vector<Waiting>, decltype(later)> front(later);
-		std::vector<std::uint8_t> full = network.gas, injected = network.injected, opened(network.throats.size(), 0);
+		std::vector<std::uint8_t> full = network.gas, injected = network.injected,
+		                          opened(network.throats.size(), 0);
 
 		// The throats of a domain that was entered; and, with it, of gas that it meets.
 		std::vector<int> stack;
-		auto             expose = [&](int entered) {
+		auto expose = [&](int entered) {
 			stack.push_back(entered);
 			while (!stack.empty()) {
 				const int domain = stack.back();
 				stack.pop_back();
 				for (int k = incidence.start[domain]; k < incidence.start[domain + 1]; ++k) {
-					const Throat& t     = network.throats[incidence.throat[k]];
-					const int     other = otherSide(t, domain);
+					const Throat& t = network.throats[incidence.throat[k]];
+					const int other = otherSide(t, domain);
 					if (!full[other] || (t.snapped && !opened[incidence.throat[k]])) {
-						if (t.entryPressure <= capillaryPressure) front.push({ t.entryPressure, incidence.throat[k] });
+						if (t.entryPressure <= capillaryPressure)
+							front.push({ t.entryPressure, incidence.throat[k] });
 					} else if (absorb && !injected[other]) {
 						injected[other] = 1;
 						stack.push_back(other);
@@ -77,8 +81,8 @@ namespace {
 
 		std::vector<DrainageStep> steps;
 		while (!front.empty() && static_cast<int>(steps.size()) < maxSteps) {
-			const int     throat = front.top().throat;
-			const Throat& t      = network.throats[throat];
+			const int throat = front.top().throat;
+			const Throat& t = network.throats[throat];
 			front.pop();
 			if (full[t.left] && full[t.right]) {
 				if (!t.snapped || opened[throat]) continue;
@@ -92,9 +96,10 @@ namespace {
 				continue;
 			}
 			const int entered = full[t.left] ? t.right : t.left;
-			full[entered]     = injected[entered] = 1;
+			full[entered] = injected[entered] = 1;
 			steps.push_back({ throat, entered });
-			// An outlet is never trapped, so what comes later decides neither on this step nor on those before it.
+			// An outlet is never trapped, so what comes later decides neither on this step nor on those
+			// before it.
 			if (untilOutlet && network.outlet[entered]) break;
 			expose(entered);
 		}
@@ -109,7 +114,7 @@ namespace {
 	/// change a later one, because what lies behind it is trapped with it.
 	void keepTrapped(const DrainageNetwork& network, const Incidence& incidence, Drainage& drainage, int maxSteps)
 	{
-		const int                 nDomains = static_cast<int>(network.gas.size());
+		const int nDomains = static_cast<int>(network.gas.size());
 		std::vector<std::uint8_t> water(nDomains);
 		for (int d = 0; d < nDomains; ++d)
 			water[d] = !network.gas[d];
@@ -118,12 +123,12 @@ namespace {
 
 		const int outside = nDomains; // one more member stands for everything beyond the outlet
 		UnionFind clusters(nDomains + 1);
-		auto      putBack = [&](int d) {
-                        if (network.outlet[d]) clusters.join(d, outside);
-                        for (int k = incidence.start[d]; k < incidence.start[d + 1]; ++k) {
-                                const int other = otherSide(network.throats[incidence.throat[k]], d);
-                                if (water[other]) clusters.join(d, other);
-                        }
+		auto putBack = [&](int d) {
+			if (network.outlet[d]) clusters.join(d, outside);
+			for (int k = incidence.start[d]; k < incidence.start[d + 1]; ++k) {
+				const int other = otherSide(network.throats[incidence.throat[k]], d);
+				if (water[other]) clusters.join(d, other);
+			}
 		};
 		for (int d = 0; d < nDomains; ++d)
 			if (water[d]) putBack(d);
@@ -146,7 +151,9 @@ namespace {
 		auto gas = network.gas;
 		for (const auto& step : drainage.steps)
 			if (step.domain >= 0) gas[step.domain] = 1;
-		const auto drained = reach(network, incidence, network.outlet, [&](int d) { return gas[d] == 0; }, [](const Throat&) { return true; });
+		const auto drained = reach(
+		        network, incidence, network.outlet, [&](int d) { return gas[d] == 0; },
+		        [](const Throat&) { return true; });
 		for (int d = 0; d < nDomains; ++d)
 			if (!gas[d] && !drained[d]) drainage.trapped.push_back(d);
 	}
@@ -155,20 +162,25 @@ namespace {
 
 std::vector<std::uint8_t> connectedGas(const DrainageNetwork& network, const std::vector<std::uint8_t>& seed)
 {
-	return reach(network, Incidence(network), seed, [&](int d) { return network.gas[d] != 0; }, [](const Throat& t) { return !t.snapped; });
+	return reach(
+	        network, Incidence(network), seed, [&](int d) { return network.gas[d] != 0; },
+	        [](const Throat& t) { return !t.snapped; });
 }
 
 std::vector<std::uint8_t> connectedWater(const DrainageNetwork& network)
 {
-	return reach(network, Incidence(network), network.outlet, [&](int d) { return network.gas[d] == 0; }, [](const Throat&) { return true; });
+	return reach(
+	        network, Incidence(network), network.outlet, [&](int d) { return network.gas[d] == 0; },
+	        [](const Throat&) { return true; });
 }
 
 Drainage drain(const DrainageNetwork& network, double capillaryPressure, bool trapping, int maxSteps, bool untilOutlet)
 {
 	const Incidence incidence(network);
-	Drainage        drainage;
+	Drainage drainage;
 	// What is trapped is known only when the whole avalanche is: its steps are counted afterwards.
-	drainage.steps = invade(network, incidence, capillaryPressure, !trapping, trapping ? std::numeric_limits<int>::max() : maxSteps, untilOutlet);
+	drainage.steps = invade(network, incidence, capillaryPressure, !trapping,
+	        trapping ? std::numeric_limits<int>::max() : maxSteps, untilOutlet);
 	if (trapping) keepTrapped(network, incidence, drainage, maxSteps);
 	return drainage;
 }
@@ -176,12 +188,11 @@ Drainage drain(const DrainageNetwork& network, double capillaryPressure, bool tr
 double nextEntryPressure(const DrainageNetwork& network)
 {
 	double lowest = std::numeric_limits<double>::infinity();
-	auto   meets  = [&](const Throat& t, int from, int to) {
-                return network.injected[from] && (!network.gas[to] || (t.snapped && !network.injected[to]));
+	auto meets = [&](const Throat& t, int from, int to) {
+		return network.injected[from] && (!network.gas[to] || (t.snapped && !network.injected[to]));
 	};
 	for (const Throat& t : network.throats)
-		if (meets(t, t.left, t.right) || meets(t, t.right, t.left))
-			lowest = std::min(lowest, t.entryPressure);
+		if (meets(t, t.left, t.right) || meets(t, t.right, t.left)) lowest = std::min(lowest, t.entryPressure);
 	return lowest;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "Imbibition.hpp"
 
 #include "../network/UnionFind.hpp"
@@ -49,8 +50,8 @@ namespace {
 	private:
 		struct Search {
 			std::vector<int> found; ///< in the order of a breadth-first search
-			std::size_t      next = 0;
-			bool             running() const { return next < found.size(); }
+			std::size_t next = 0;
+			bool running() const { return next < found.size(); }
 		};
 
 		/// Finds out which of `seeds`, domains of what was one piece with an exit, still are.
@@ -97,7 +98,8 @@ namespace {
 		{
 			if (pieces.find(s) == pieces.find(static_cast<int>(searches.size()))) return false;
 			for (std::size_t other = 0; other < searches.size(); ++other)
-				if (pieces.find(static_cast<int>(other)) == pieces.find(s) && searches[other].running()) return false;
+				if (pieces.find(static_cast<int>(other)) == pieces.find(s) && searches[other].running())
+					return false;
 			return true;
 		}
 
@@ -105,22 +107,24 @@ namespace {
 		{
 			// The pieces made up one with an exit: as soon as all others have none, the last one has it.
 			std::vector<int> open;
-			const int        outside = static_cast<int>(searches.size());
-			bool             exitFound = false;
+			const int outside = static_cast<int>(searches.size());
+			bool exitFound = false;
 			for (int s = 0; s < outside; ++s) {
-				if (pieces.find(s) == pieces.find(outside)) exitFound = true;
-				else if (!cutOff(searches, pieces, s)) open.push_back(pieces.find(s));
+				if (pieces.find(s) == pieces.find(outside))
+					exitFound = true;
+				else if (!cutOff(searches, pieces, s))
+					open.push_back(pieces.find(s));
 			}
 			std::sort(open.begin(), open.end());
 			open.erase(std::unique(open.begin(), open.end()), open.end());
 			return open.size() > (exitFound ? 0 : 1);
 		}
 
-		const ImbibitionNetwork&  network;
-		const Incidence&          incidence;
+		const ImbibitionNetwork& network;
+		const Incidence& incidence;
 		std::vector<std::uint8_t> hangs, snapped;
-		std::vector<int>          seenBy; ///< the search that last came to a domain; those below firstSearch are over
-		int                       firstSearch = 0;
+		std::vector<int> seenBy; ///< the search that last came to a domain; those below firstSearch are over
+		int firstSearch = 0;
 	};
 
 	/// The cascade as it goes on.
@@ -180,12 +184,16 @@ namespace {
 		/// What decides which step is next: the threshold, then the place from the left and from below.
 		std::tuple<double, double, double, int> key(const ImbibitionStep& step) const
 		{
-			const bool   domain = step.domain >= 0;
-			const Vec2   at     = domain ? network.place[step.domain] : network.throats[step.throat].position;
-			return { domain ? network.refill[step.domain] : network.snapOff[step.throat], -at.x, -at.y, domain };
+			const bool domain = step.domain >= 0;
+			const Vec2 at = domain ? network.place[step.domain] : network.throats[step.throat].position;
+			return { domain ? network.refill[step.domain] : network.snapOff[step.throat], -at.x, -at.y,
+				domain };
 		}
 
-		bool mayStillSnap(int t) const { return hanging.open(t) && hanging(network.throats[t].left) && hanging(network.throats[t].right); }
+		bool mayStillSnap(int t) const
+		{
+			return hanging.open(t) && hanging(network.throats[t].left) && hanging(network.throats[t].right);
+		}
 
 		/// Water has come to a domain of gas.
 		void touch(int d)
@@ -211,29 +219,33 @@ namespace {
 				stack.pop_back();
 				for (int k = incidence.start[d]; k < incidence.start[d + 1]; ++k) {
 					const int other = otherSide(network.throats[incidence.throat[k]], d);
-					if (gas[other]) touch(other);
-					else if (!feeds[other]) feeds[other] = 1, stack.push_back(other);
+					if (gas[other])
+						touch(other);
+					else if (!feeds[other])
+						feeds[other] = 1, stack.push_back(other);
 				}
 			}
 		}
 
-		const ImbibitionNetwork&  network;
-		double                    capillaryPressure;
-		bool                      films;
-		Incidence                 incidence;
+		const ImbibitionNetwork& network;
+		double capillaryPressure;
+		bool films;
+		Incidence incidence;
 		std::vector<std::uint8_t> gas;
-		HangingGas                hanging;
+		HangingGas hanging;
 		std::vector<std::uint8_t> feeds, touched;
-		std::priority_queue<ImbibitionStep, std::vector<ImbibitionStep>, std::function<bool(const ImbibitionStep&, const ImbibitionStep&)>> queue;
+		std::priority_queue<ImbibitionStep, std::vector<ImbibitionStep>,
+		        std::function<bool(const ImbibitionStep&, const ImbibitionStep&)>>
+		        queue;
 	};
 
 } // namespace
 
 Imbibition imbibe(const ImbibitionNetwork& network, double capillaryPressure, bool films, int maxSteps)
 {
-	Cascade    cascade(network, capillaryPressure, films);
+	Cascade cascade(network, capillaryPressure, films);
 	Imbibition imbibition;
-	imbibition.steps   = cascade.run(maxSteps);
+	imbibition.steps = cascade.run(maxSteps);
 	imbibition.trapped = cascade.trapped();
 	return imbibition;
 }

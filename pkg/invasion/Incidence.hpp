@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 #include "Drainage.hpp"
@@ -18,7 +19,7 @@ struct Incidence {
 			start[d + 1] += start[d];
 		auto next = start;
 		for (std::size_t t = 0; t < network.throats.size(); ++t) {
-			throat[next[network.throats[t].left]++]  = static_cast<int>(t);
+			throat[next[network.throats[t].left]++] = static_cast<int>(t);
 			throat[next[network.throats[t].right]++] = static_cast<int>(t);
 		}
 	}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "TrappedWater.hpp"
 
 #include "../network/UnionFind.hpp"
@@ -10,10 +11,10 @@ namespace capfrac {
 
 std::vector<TrappedCluster> trappedClusters(const DrainageNetwork& network)
 {
-	const int  nDomains = static_cast<int>(network.gas.size());
-	const auto free     = connectedWater(network);
-	auto       trapped  = [&](int d) { return !network.gas[d] && !free[d]; };
-	UnionFind  sets(nDomains);
+	const int nDomains = static_cast<int>(network.gas.size());
+	const auto free = connectedWater(network);
+	auto trapped = [&](int d) { return !network.gas[d] && !free[d]; };
+	UnionFind sets(nDomains);
 	for (const Throat& t : network.throats)
 		if (trapped(t.left) && trapped(t.right)) sets.join(t.left, t.right);
 
@@ -27,10 +28,12 @@ std::vector<TrappedCluster> trappedClusters(const DrainageNetwork& network)
 	for (int t = 0; t < static_cast<int>(network.throats.size()); ++t)
 		for (bool forward : { true, false }) {
 			const Throat& throat = network.throats[t];
-			const int     from = forward ? throat.left : throat.right, to = forward ? throat.right : throat.left;
+			const int from = forward ? throat.left : throat.right,
+			          to = forward ? throat.right : throat.left;
 			if (!network.gas[from] || !network.injected[from] || !trapped(to)) continue;
 			auto& cluster = clusters[sets.find(to)];
-			if (cluster.throat < 0 || rank(t) < rank(cluster.throat)) cluster.throat = t, cluster.behind = to;
+			if (cluster.throat < 0 || rank(t) < rank(cluster.throat))
+				cluster.throat = t, cluster.behind = to;
 		}
 
 	std::vector<TrappedCluster> found;
@@ -39,6 +42,9 @@ std::vector<TrappedCluster> trappedClusters(const DrainageNetwork& network)
 	return found;
 }
 
-double filmOutflow(double conductance, double capillaryPressure, double entryPressure) { return conductance * std::max(0.0, capillaryPressure - entryPressure); }
+double filmOutflow(double conductance, double capillaryPressure, double entryPressure)
+{
+	return conductance * std::max(0.0, capillaryPressure - entryPressure);
+}
 
 } // namespace capfrac

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// What fills the cells, and how it is kept when the triangulation changes.
@@ -18,15 +19,15 @@ enum class Phase : std::uint8_t { water = 0, gas = 1 };
 
 /// Per cell: which phase acts in it, and how much of each it holds.
 struct Contents {
-	std::vector<Phase>        phase;  ///< the phase whose pressure the cell has
-	std::vector<double>       gas;    ///< gas in the cell [m^2: volume per thickness, at its pressure]
-	std::vector<double>       water;  ///< water in the cell [m^2]
+	std::vector<Phase> phase;         ///< the phase whose pressure the cell has
+	std::vector<double> gas;          ///< gas in the cell [m^2: volume per thickness, at its pressure]
+	std::vector<double> water;        ///< water in the cell [m^2]
 	std::vector<std::uint8_t> source; ///< 1 where the cell hangs on the gas inlet
-	std::vector<double>       gasMass; ///< mass of that gas [kg/m: per thickness]; zeros where no one counts it
+	std::vector<double> gasMass;      ///< mass of that gas [kg/m: per thickness]; zeros where no one counts it
 	std::vector<std::uint8_t> held;   ///< 1 where a cell of gas is cut off from the inlet and keeps its gas
-	std::vector<double>       heldPressure; ///< the gas pressure (at the datum) when a held cell was cut off [Pa]; else 0
+	std::vector<double> heldPressure; ///< the gas pressure (at the datum) when a held cell was cut off [Pa]; else 0
 
-	void   resize(std::size_t n);
+	void resize(std::size_t n);
 	double totalGas() const;
 	double totalWater() const;
 	double totalGasMass() const;
@@ -45,18 +46,17 @@ std::array<double, 2> followVoids(Contents& contents, const std::vector<double>&
 ///
 /// Cells with the same vertices keep what they hold. The vanished and the new cells fill the same
 /// region, part by part (parts are joined through shared edges); in each part the sum of either fluid, and of the
-/// mass of the gas, is kept and shared out by void area. A new cell is gas where its part held at least as much gas as water.
-/// A new gas cell is held where no gas of its part was free, at the mean pressure by amount. `newVoid` are the void areas of the
-/// new cells [m^2]. Both triangulations must tile the same box.
+/// mass of the gas, is kept and shared out by void area. A new cell is gas where its part held at least as much gas as
+/// water. A new gas cell is held where no gas of its part was free, at the mean pressure by amount. `newVoid` are the
+/// void areas of the new cells [m^2]. Both triangulations must tile the same box.
 ///
-/// Where amounts of gas are no volumes, `oldVoid`, the void areas of the cells before [m^2], decides in their place: a new cell is gas
-/// where the cells of gas in its part had at least half of the void.
-Contents carryOver(
-        const Triangulation& before, const Contents& contents, const Triangulation& after, const std::vector<double>& newVoid,
-        const std::vector<double>& oldVoid = {});
+/// Where amounts of gas are no volumes, `oldVoid`, the void areas of the cells before [m^2], decides in their place: a
+/// new cell is gas where the cells of gas in its part had at least half of the void.
+Contents carryOver(const Triangulation& before, const Contents& contents, const Triangulation& after,
+        const std::vector<double>& newVoid, const std::vector<double>& oldVoid = {});
 
 /// Carries one flag per edge over: an edge in both triangulations keeps its flag, a new one gets `fresh`.
-std::vector<std::uint8_t> carryOverEdges(
-        const Triangulation& before, const std::vector<std::uint8_t>& flags, const Triangulation& after, std::uint8_t fresh);
+std::vector<std::uint8_t> carryOverEdges(const Triangulation& before, const std::vector<std::uint8_t>& flags,
+        const Triangulation& after, std::uint8_t fresh);
 
 } // namespace capfrac

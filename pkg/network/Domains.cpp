@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "Domains.hpp"
 #include "UnionFind.hpp"
 
@@ -16,7 +17,8 @@ bool updateOpenEdges(std::vector<std::uint8_t>& open, const std::vector<double>&
 	return changed;
 }
 
-Domains findDomains(const Triangulation& mesh, const std::vector<std::uint8_t>& open, const std::vector<Phase>& phase, PoreMode mode)
+Domains findDomains(const Triangulation& mesh, const std::vector<std::uint8_t>& open, const std::vector<Phase>& phase,
+        PoreMode mode)
 {
 	const int nCells = static_cast<int>(mesh.cells.size());
 	UnionFind sets(nCells);

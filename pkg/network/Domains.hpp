@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 /// Domains (the paper's pores, its Figures 3 and 4): connected sets of cells of one phase, joined across
@@ -11,7 +12,7 @@ namespace capfrac {
 enum class PoreMode { domain, triangle };
 
 struct Domains {
-	int              count = 0;
+	int count = 0;
 	std::vector<int> ofCell; ///< cell -> domain, 0 … count-1, numbered by the first cell of each
 	std::vector<int> first;  ///< domain -> its first cell
 	std::vector<int> begin;  ///< domain -> where its cells begin in `cells`; count+1 entries
@@ -36,7 +37,8 @@ bool updateOpenEdges(std::vector<std::uint8_t>& open, const std::vector<double>&
 constexpr std::uint8_t freshEdge = 2;
 
 /// Partition of the cells into domains; every cell by itself in `triangle` mode.
-Domains findDomains(const Triangulation& mesh, const std::vector<std::uint8_t>& open, const std::vector<Phase>& phase, PoreMode mode);
+Domains findDomains(const Triangulation& mesh, const std::vector<std::uint8_t>& open, const std::vector<Phase>& phase,
+        PoreMode mode);
 
 /// Sums a quantity of the cells over the domains.
 std::vector<double> sumOverDomains(const Domains& domains, const std::vector<double>& ofCell);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #include "GrainClusters.hpp"
 #include "UnionFind.hpp"
 
@@ -28,7 +29,7 @@ LooseClusters looseClusters(const std::vector<std::uint8_t>& held, const std::ve
 	std::vector<std::uint8_t> hangs(nMembers, 0); // of the set that a member represents
 	for (int i = 0; i < nMembers; ++i)
 		if (held[i]) hangs[sets.find(i)] = 1;
-	LooseClusters    loose;
+	LooseClusters loose;
 	std::vector<int> numberOf(nMembers, -1);
 	for (int i = 0; i < nMembers; ++i) {
 		const int set = sets.find(i); // its smallest member, so that it was numbered before its others

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
 #include <numeric>
@@ -27,7 +28,8 @@ public:
 	{
 		i = find(i), j = find(j);
 		if (i == j) return false;
-		if (i < j) parent[j] = i;
+		if (i < j)
+			parent[j] = i;
 		else
 			parent[i] = j;
 		return true;

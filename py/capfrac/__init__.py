@@ -6,7 +6,8 @@ An extension of YADE. ``import capfrac`` in a YADE script or session adds the cl
 * ``DiskMat``, ``WallMat``: materials of the grains (disks) and of the box,
 * ``Ip2_DiskMat_DiskMat_CohFrictPhys``, ``Ip2_WallMat_DiskMat_CohFrictPhys``, ``Ig2_Wall_Sphere_ScGeom6D``:
   their contacts,
-* ``PoreNetworkEngine``, ``GasInvasionEngine``: the pores, and gas that enters them,
+* ``PoreNetworkEngine``, ``SinglePhaseFlowEngine``, ``GasInvasionEngine``, ``ViscousInvasionEngine``: the pores, water
+  that flows through them, and gas that enters them, against drained or viscous water,
 * ``MeniscusCohesionEngine``: menisci that pull grains together where both fluids meet,
 * ``WallServoEngine``: walls that hold stresses,
 
@@ -117,6 +118,7 @@ def _load(threads):
         "PoreNetworkEngine",
         "SinglePhaseFlowEngine",
         "GasInvasionEngine",
+        "ViscousInvasionEngine",
         "MeniscusCohesionEngine",
         "WallServoEngine",
     ]

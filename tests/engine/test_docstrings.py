@@ -20,14 +20,18 @@ CLASSES = [
     "Ip2_DiskMat_DiskMat_CohFrictPhys",
     "Ip2_WallMat_DiskMat_CohFrictPhys",
     "PoreNetworkEngine",
+    "SinglePhaseFlowEngine",
+    "GasEngine",
     "GasInvasionEngine",
+    "ViscousInvasionEngine",
     "MeniscusCohesionEngine",
     "WallServoEngine",
 ]
 HEADERS = sorted((Path(__file__).resolve().parents[2] / "pkg" / "engines").glob("*.hpp"))
 #: ((type,name,default,flags,"documentation")) as YADE's class macros have it.
 ATTRIBUTE = re.compile(
-    r'^\t*\(\((?P<type>[\w:<>]+),(?P<name>\w+),(?P<middle>.*?),"(?P<doc>(?:[^"\\]|\\.)*)"\)\)', re.MULTILINE
+    r'^\t*\(\((?P<type>[\w:<>]+),(?P<name>\w+),(?P<middle>[^\n]*?),[\s\\]*(?P<doc>(?:"(?:[^"\\]|\\.)*"[\s\\]*)+)\)\)',
+    re.MULTILINE,
 )
 #: A unit in square brackets, [-] for none; not a reference like [Jain2008]_.
 UNIT = re.compile(r"\[(-|ids|(?:m|s|N|Pa|kg|rad|J|K)(?:·s|[²³]|\^-?\d|/(?:m|s|kg|mol|\(Pa·s\))[²³]?)*)\](?!_)")

@@ -5,9 +5,10 @@ import math
 
 import pytest
 from yade import O
-from yade.wrapper import GasInvasionEngine, PoreNetworkEngine
+from yade.wrapper import PoreNetworkEngine
 
 from capfrac import injection, sediment, snapshot
+from capfrac.scene.gasengine import engineOfGas
 
 R = 1e-3
 SPEED = 0.01
@@ -21,7 +22,7 @@ def cage(handScene):
     The box is ten radii wide; the eight touch in pairs along bottom and top, so that there is a mean contact.
     """
 
-    def make(disks, damping=0.4, gravity=(0, 0, 0), waterPressure=0.0, **attributes):
+    def make(disks, damping=0.4, gravity=(0, 0, 0), waterPressure=0.0, waterFlow="drained", **attributes):
         side = 10 * R
         frame = [(x, y, R) for x in (R, 2.99 * R, side - 2.99 * R, side - R) for y in (R, side - R)]
         free = handScene(frame + disks, (0, side, 0, side))[len(frame) :]
@@ -30,7 +31,7 @@ def cage(handScene):
         newton = sediment.engine("newton")
         newton.damping, newton.gravity = damping, gravity
         sediment.insertFluid(
-            GasInvasionEngine(
+            engineOfGas(waterFlow)(
                 label="gas",
                 waterPressure=waterPressure,
                 gasPressure=waterPressure + 1,

@@ -42,8 +42,9 @@ def same(a, b):
 
 
 def attributesOf(thing):
-    """All attributes but those that only carry the network into the file."""
-    return {name: value for name, value in thing.dict().items() if not name.startswith("saved")}
+    """All that has a name and a value: attributes, and what is told of the state."""
+    kinds = {name: kind for base in reversed(type(thing).__mro__) for name, kind in vars(base).items()}
+    return {name: getattr(thing, name) for name, kind in kinds.items() if isinstance(kind, property) and name[0] != "_"}
 
 
 def reports(gas):

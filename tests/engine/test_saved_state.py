@@ -18,6 +18,7 @@ from yade.wrapper import (
     NewtonIntegrator,
     PoreNetworkEngine,
     SinglePhaseFlowEngine,
+    ViscousInvasionEngine,
     WallServoEngine,
 )
 
@@ -26,13 +27,17 @@ STEPS = 160
 LOADS, SAVES = (0, 1, 2, 37, 38, 75, 112, 151), (20, 90)
 PRESSURES = dict(gasPressure=60, pressureIncrement=10, maxPressure=200, minLevelSteps=1, maxLevelSteps=1)
 IDEAL = dict(gasLaw="ideal", pressureDatum=300)
-SOLVED = dict(waterFlow="solved", bulkModulus=1e5, viscosity=1e-3, **IDEAL)
+SOLVED = dict(bulkModulus=1e5, viscosity=1e-3, **IDEAL)
 WEIGHT = dict(fluidDensity=1000, gasDensity=80, gravity=(1, -9.81))
 RATE = dict(gasControl="rate", gasRate=2e-5, **IDEAL)
 
 
 def gas(**attributes):
     return GasInvasionEngine(label="it", invasionInterval=2, checkInvariants=True, **{**PRESSURES, **attributes})
+
+
+def viscous(**attributes):
+    return ViscousInvasionEngine(label="it", checkInvariants=True, **{**PRESSURES, **SOLVED, **attributes})
 
 
 def water(**attributes):
@@ -102,14 +107,14 @@ RUNS = {
         {},
         lambda e: e.nEvents > 0,
     ),
-    "solved": (lambda: gas(**SOLVED), {}, lambda e: e.nEvents > 0),
+    "solved": (viscous, {}, lambda e: e.nEvents > 0),
     "solvedRate": (
-        lambda: gas(filmConductance=1e-9, reservoirVolume=2e-6, **{**SOLVED, **RATE, "gasRate": 3e-6}),
+        lambda: viscous(filmConductance=1e-9, reservoirVolume=2e-6, **{**RATE, "gasRate": 3e-6}),
         {},
         lambda e: e.nEvents > 0,
     ),
     "solvedHeavy": (
-        lambda: gas(grainBulkModulus=1e7, conductanceLaw="lubrication", **{**SOLVED, "pressureDatum": 1e5}, **WEIGHT),
+        lambda: viscous(grainBulkModulus=1e7, conductanceLaw="lubrication", pressureDatum=1e5, **WEIGHT),
         {},
         lambda e: e.nEvents > 0,
     ),
@@ -159,12 +164,11 @@ def it():
 
 def reports():
     """All that the engines of the scene tell."""
-    flowing = ("pores", "inflow")  # of water that is solved for
     return {
         (engine.label, name): getattr(engine, name)()
         for engine in O.engines
         for name in REPORTS
-        if hasattr(engine, name) and not (name in flowing and getattr(engine, "waterFlow", "") == "drained")
+        if hasattr(engine, name)
     }
 
 
@@ -211,7 +215,7 @@ def driven(settledScene):
 
     def make(engine, menisci=False, still=False):
         walls = settledScene()
-        if isinstance(engine, GasInvasionEngine) and not engine.inletPoints:
+        if isinstance(engine, (GasInvasionEngine, ViscousInvasionEngine)) and not engine.inletPoints:
             middle = 0.5 * (walls[0] + walls[1])
             engine.inletFrom, engine.inletTo = engine.inletStretch(2, middle)
         O.engines = [

@@ -10,7 +10,9 @@ table name -> dict of column -> list of numbers; ``build(rMin)`` puts the stored
 
 import numpy as np
 from yade import O
-from yade.wrapper import ForceResetter, GasInvasionEngine, SinglePhaseFlowEngine
+from yade.wrapper import ForceResetter, SinglePhaseFlowEngine
+
+from capfrac.scene.gasengine import engineOfGas
 
 from capfrac import injection, sediment
 
@@ -93,9 +95,9 @@ def grainTable():
 # --- grains that stand still ----------------------------------------------------------------------
 
 
-def rigidGas(build, steps=400, **attributes):
+def rigidGas(build, steps=400, waterFlow="drained", **attributes):
     build(1e-3)
-    gas = GasInvasionEngine(
+    gas = engineOfGas(waterFlow)(
         label="gas", checkInvariants=True, minLevelSteps=1, maxLevelSteps=1, historyInterval=7, **attributes
     )
     left, right = O.bodies[0].state.pos[0], O.bodies[1].state.pos[0]

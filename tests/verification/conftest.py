@@ -3,7 +3,9 @@
 
 import pytest
 from yade import O
-from yade.wrapper import ForceResetter, GasInvasionEngine
+from yade.wrapper import ForceResetter
+
+from capfrac.scene.gasengine import engineOfGas
 
 
 @pytest.fixture
@@ -12,10 +14,10 @@ def standing(settledScene):
     pores in the middle of the floor.
     """
 
-    def make(**attributes):
+    def make(waterFlow="drained", **attributes):
         walls = settledScene()
         # Without contacts there is no rest in the sense of small forces: let every level end by itself.
-        gas = GasInvasionEngine(minLevelSteps=1, maxLevelSteps=1, checkInvariants=True, **attributes)
+        gas = engineOfGas(waterFlow)(minLevelSteps=1, maxLevelSteps=1, checkInvariants=True, **attributes)
         gas.inletFrom, gas.inletTo = gas.inletStretch(2, 0.5 * (walls[0] + walls[1]))
         O.engines = [ForceResetter(), gas]
         return O.engines[1]
@@ -30,11 +32,11 @@ def chain(handScene):
     """
     r = 1e-3
 
-    def make(gaps, gravity=9.81, **attributes):
+    def make(gaps, gravity=9.81, waterFlow="drained", **attributes):
         grains = [(gap + r, r + 1.98 * r * k, r) for k, gap in enumerate(gaps)]
         width = min(gaps) + 1.98 * r
         handScene(grains, (0, width, 0, grains[-1][1] + 1.01 * r))
-        gas = GasInvasionEngine(
+        gas = engineOfGas(waterFlow)(
             inletFrom=0,
             inletTo=r,
             fluidDensity=1000,

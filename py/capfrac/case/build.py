@@ -92,6 +92,8 @@ def startGas(case):
     """
     inlet, gas, ramp, supply = (case[section] for section in ("inlet", "gas", "ramp", "supply"))
     walls = sediment.wallBodies()
+    flow = case["water"]["flow"]
+    special = words.VISCOUS if flow == "solved" else words.DRAINED
     engine = startInjection(
         ramp["start"],
         _increment(case),
@@ -105,7 +107,8 @@ def startGas(case):
         gasTable=[tuple(map(float, pair)) for pair in gas["table"]],
         gravity=tuple(gas["gravity"]),
         pressureProgram=[float(p) for p in supply["program"]],
-        **words.values(case, words.GAS),
+        waterFlow=flow,
+        **words.values(case, {**words.GAS, **special}),
     )
     if case["cohesion"]["menisci"] != "none":
         addMenisci(case["cohesion"]["menisci"], chi=case["cohesion"]["meniscusChi"])

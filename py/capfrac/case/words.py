@@ -3,13 +3,10 @@
 
 import re
 
-#: Attributes of ``GasInvasionEngine`` that take the value of a key as it is: attribute -> key.
+#: Attributes of both engines of gas that take the value of a key as it is: attribute -> key.
 GAS = {
     "interfacialTension": "gas.interfacialTension",
     "entryLaw": "gas.entryLaw",
-    "trapping": "gas.trapping",
-    "imbibition": "gas.imbibition",
-    "snapOff": "gas.snapOff",
     "filmConductance": "gas.filmConductance",
     "gasLaw": "gas.law",
     "gasMolarMass": "gas.molarMass",
@@ -18,24 +15,32 @@ GAS = {
     "pressureDatum": "gas.datum",
     "gasDensity": "gas.gasDensity",
     "fluidDensity": "gas.waterDensity",
-    "gasViscosity": "gas.viscosity",
     "gasControl": "supply.control",
     "gasRate": "supply.rate",
     "reservoirVolume": "supply.reservoirVolume",
     "historyInterval": "supply.historyInterval",
-    "waterFlow": "water.flow",
-    "viscosity": "water.viscosity",
-    "bulkModulus": "water.bulkModulus",
-    "conductanceFactor": "water.conductanceFactor",
     "poreMode": "network.poreMode",
     "mergeTolerance": "network.mergeTolerance",
-    "closedPore": "network.closedPore",
     "openingThreshold": "network.openingThreshold",
     "checkInvariants": "network.checkInvariants",
     "unbalancedTolerance": "ramp.unbalanced",
     "minLevelSteps": "ramp.minLevelSteps",
     "maxLevelSteps": "ramp.maxLevelSteps",
+}
+#: Those of ``GasInvasionEngine`` alone, whose water is drained.
+DRAINED = {
+    "trapping": "gas.trapping",
+    "imbibition": "gas.imbibition",
+    "snapOff": "gas.snapOff",
     "invasionInterval": "ramp.invasionInterval",
+}
+#: Those of ``ViscousInvasionEngine`` alone, whose water is solved for.
+VISCOUS = {
+    "viscosity": "water.viscosity",
+    "bulkModulus": "water.bulkModulus",
+    "gasViscosity": "gas.viscosity",
+    "conductanceFactor": "water.conductanceFactor",
+    "closedPore": "network.closedPore",
 }
 #: Fields of :class:`capfrac.sediment.Sediment` that do.
 SEDIMENT = {
@@ -44,6 +49,7 @@ SEDIMENT = {
 }
 #: What stands for a key in another form (unit, place, name of an argument).
 _OTHERS = {
+    "waterFlow": "water.flow",
     "contactAngle": "gas.contactAngle",
     "gasTable": "gas.table",
     "gravity": "gas.gravity",
@@ -67,7 +73,7 @@ _OTHERS = {
     "shearStrength": "cohesion.shearStrength",
     "chi": "cohesion.meniscusChi",
 }
-KEYS = {**GAS, **SEDIMENT, **_OTHERS}
+KEYS = {**GAS, **DRAINED, **VISCOUS, **SEDIMENT, **_OTHERS}
 
 # A word that is English, too, is a name only where it has a value.
 _UNMISTAKABLE = "|".join(name for name in KEYS if not name.islower())

@@ -77,18 +77,16 @@ def _corner(run, name, capillaryNumber, viscosityRatio, tension, viscosity, step
 
 
 def startGas(tension, viscosity, gasViscosity, control="rate", pressure=0.0, **attributes):
-    """``GasInvasionEngine`` with solved water as the only engine of the scene, prepared: grains stand still. The inlet
-    is the floor, the outlet the top; returns it.
+    """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. The inlet is the floor, the outlet the top; returns it.
     """
     from yade import O
-    from yade.wrapper import GasInvasionEngine
+    from yade.wrapper import ViscousInvasionEngine
 
     walls = sediment.wallBodies()
-    gas = GasInvasionEngine(
+    gas = ViscousInvasionEngine(
         **{
             **dict(
                 label="gas",
-                waterFlow="solved",
                 gasLaw="ideal",
                 gasTemperature=ROOM_TEMPERATURE,
                 gasMolarMass=METHANE_MOLAR_MASS,

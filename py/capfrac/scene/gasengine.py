@@ -18,9 +18,12 @@ def startInjection(
     stretch=None,
     points=(),
     waterPressure=0.0,
+    waterFlow="drained",
     **attributes,
 ):
-    """Put a ``GasInvasionEngine`` (label ``gas``) into the current scene and prepare it; returns the engine.
+    """Put an engine of gas (label ``gas``) into the current scene and prepare it; returns the engine.
+
+    A ``GasInvasionEngine``, whose water is drained; with ``waterFlow="solved"`` a ``ViscousInvasionEngine``.
 
     ``start``, ``increment``, ``max``: the ramp of the capillary pressure [Pa]; ``max`` says nothing to a program, a
     rate or a reservoir and may then be left out. The inlet is ``pores`` neighbouring pores around the middle of
@@ -29,13 +32,12 @@ def startInjection(
     argument that is impossible, and :class:`SceneError` for a scene that cannot be followed (RuntimeError of the
     engine); the scene then is as before.
     """
-    from yade.wrapper import GasInvasionEngine
-
+    kind = engineOfGas(waterFlow)
     sediment.engine("servo")  # a scene without one is refused before anything is made
     ramp = _numbers(start=start, increment=increment, max=start if max is None else max, waterPressure=waterPressure)
     pores, stretch, points = _checkedInlet(pores, stretch, points)
     gas = madeEngine(
-        GasInvasionEngine,
+        kind,
         **{
             "label": "gas",
             "gasPressure": ramp["waterPressure"] + ramp["start"],
@@ -58,6 +60,16 @@ def startInjection(
     except RuntimeError as problem:
         raise SceneError(str(problem)) from None
     return sediment.insertFluid(gas)
+
+
+def engineOfGas(waterFlow):
+    """The class of the engine whose water is ``"drained"`` or ``"solved"`` for. Raises :class:`CaseError`."""
+    from yade.wrapper import GasInvasionEngine, ViscousInvasionEngine
+
+    kinds = {"drained": GasInvasionEngine, "solved": ViscousInvasionEngine}
+    if waterFlow not in kinds:
+        raise CaseError(f"waterFlow = {shown(waterFlow)}, allowed: 'drained', 'solved'")
+    return kinds[waterFlow]
 
 
 def _numbers(**values):
