@@ -77,7 +77,8 @@ def _corner(run, name, capillaryNumber, viscosityRatio, tension, viscosity, step
 
 
 def startGas(tension, viscosity, gasViscosity, control="rate", pressure=0.0, **attributes):
-    """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. The inlet is the floor, the outlet the top; returns it.
+    """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. The inlet is the floor,
+    the outlet the top; returns it.
     """
     from yade import O
     from yade.wrapper import ViscousInvasionEngine

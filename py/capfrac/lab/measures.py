@@ -22,6 +22,7 @@ def trueVoidRatio(boxArea):
 
 
 def loadBearing():
+    """Number of grains with two contacts or more."""
     from yade import O
 
     contacts = {}
@@ -34,6 +35,7 @@ def loadBearing():
 
 
 def countBonds():
+    """Number of bonds that hold."""
     from yade import O
 
     return sum(1 for contact in O.interactions if contact.isReal and not contact.phys.cohesionBroken)

@@ -20,6 +20,7 @@ _PATH, _STRETCHED, _PALE = "#15323f", "#6f9cc4", "#b3d6f4"
 
 
 def hasCracks(found):
+    """Whether there are cracked throats with gas on both sides."""
     return bool(np.any(found.inGas & found.cracked))
 
 
@@ -136,6 +137,7 @@ def colourBar(figure, axes, colours):
 
 
 def putKeys(figure, keys, columns):
+    """Put ``keys`` in so many ``columns`` at the lower left of the figure."""
     width, height = figure.get_size_inches()
     figure.legend(
         handles=keys,
