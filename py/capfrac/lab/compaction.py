@@ -10,10 +10,8 @@ slope of a least-squares line through the virgin curve between two stresses, C_r
 branch.
 """
 
-from dataclasses import asdict
-from dataclasses import dataclass
-from dataclasses import field
 import math
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 

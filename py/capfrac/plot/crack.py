@@ -3,12 +3,12 @@
 
 import math
 
+import matplotlib
+import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import NullLocator
-import matplotlib
-import numpy as np
 
 from capfrac.plot.painter import COLOURS, bondStrokes, drawBox, drawCells, drawDisks, drawInlet
 from capfrac.results.fracture import throats

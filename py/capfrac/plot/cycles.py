@@ -6,7 +6,6 @@ from matplotlib.patches import Patch
 
 from capfrac.plot.painter import COLOURS, drawCells, drawDisks
 from capfrac.plot.sheet import newFigure, saveFigure
-
 from capfrac.scene import sediment
 
 _COLOURS_OF_CELLS = ("#ffffff", COLOURS["gas"], "#e8862e")  # water, gas, trapped gas

@@ -7,9 +7,9 @@ as thick as the force is large. A picture's file has the same bytes whenever it 
 
 import math
 
+import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
-import numpy as np
 
 from capfrac.errors import CaseError
 from capfrac.plot.painter import (

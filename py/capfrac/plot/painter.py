@@ -6,11 +6,9 @@
 
 import math
 
-from matplotlib.collections import PatchCollection
-from matplotlib.collections import PolyCollection
-from matplotlib.patches import Circle
-from matplotlib.patches import Rectangle
 import numpy as np
+from matplotlib.collections import PatchCollection, PolyCollection
+from matplotlib.patches import Circle, Rectangle
 
 from capfrac.results.moment import WALL_AXIS, WALL_NAMES
 from capfrac.units import quantity

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The sheet that pictures are drawn on: one style, titles that fit, keys, files with the same bytes."""
 
-from contextlib import contextmanager
-from pathlib import Path
 import os
 import textwrap
+from contextlib import contextmanager
+from pathlib import Path
 
 from matplotlib import style
 from matplotlib.backends.backend_agg import FigureCanvasAgg

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The smoothed effective stress around a fracture."""
 
+import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
-import numpy as np
 
 from capfrac.plot.figures import stateOf
 from capfrac.plot.painter import COLOURS, drawCells, fitSample

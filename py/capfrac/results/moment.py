@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The arrays of one moment of a sample, as objects and as files: :class:`Snapshot`."""
 
-from dataclasses import MISSING
-from dataclasses import dataclass
-from dataclasses import fields
 import math
 import zipfile
+from dataclasses import MISSING, dataclass, fields
 
 import numpy as np
 

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What a sample's grains are: :class:`Sediment`, and what is wrong with one."""
 
-from dataclasses import dataclass
-from dataclasses import fields
-from dataclasses import replace
 import math
+from dataclasses import dataclass, fields, replace
 
 from capfrac.errors import CaseError
 from capfrac.values import LARGEST_SEED, MOST_GRAINS, isNotNegative, isPositive, shown

@@ -32,8 +32,7 @@ from capfrac.case import schema
 from capfrac.errors import CaseError
 from capfrac.io import tomlfiles
 from capfrac.sweep.formulas import Formula
-from capfrac.sweep.points import CASE_KEYS, SEED, resolvePoints
-from capfrac.sweep.points import Point, refinementLevels
+from capfrac.sweep.points import CASE_KEYS, SEED, Point, refinementLevels, resolvePoints
 from capfrac.values import asFloat, didYouMean, shown
 
 __all__ = ["Point", "Sweep", "readSweep", "refinementLevels", "resolveSweep", "shippedSweeps"]

@@ -14,13 +14,11 @@ crack has two tips when the inlet is within it and one when it is at its end, a 
 blob has one, however rough its rim.
 """
 
-from dataclasses import dataclass
-from dataclasses import field
+from dataclasses import dataclass, field
 
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
-from scipy.sparse.csgraph import dijkstra
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components, dijkstra
 
 from capfrac.errors import CaseError
 from capfrac.results.fracture.inlet import inletNodes

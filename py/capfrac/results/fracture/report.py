@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The fracture of a run folder: its numbers as files, and its pictures."""
 
-from pathlib import Path
 import json
+from pathlib import Path
 
 from capfrac.errors import RunFolderError
 from capfrac.io.csvfiles import writeColumns
