@@ -28,7 +28,7 @@ def biaxialTest(sample, stress, strain=0.08, bondStrength=0.0, inertialNumber=IN
 
     ``bondStrength``: sigma_c = tau_c of Eq. 5 [Pa], bonds set at the isotropic state; 0: none. ``packing``
     (x, y, r) [m]: grains to begin with, instead of settling new ones. The dict holds ``table``
-    (columns of :data:`box.COLUMNS`), ``peak`` and ``residual`` (vertical stress [Pa]), ``strainAtPeak``,
+    (columns of :data:`capfrac.lab.box.COLUMNS`), ``peak`` and ``residual`` (vertical stress [Pa]), ``strainAtPeak``,
     ``youngModulus`` [Pa], ``poissonRatio``, ``bonds`` and ``brokenBonds``, ``quasiStatic``. Raises :class:`CaseError`
     for impossible values.
     """

@@ -27,8 +27,8 @@ LARGEST_STRAIN = 0.45
 
 @dataclass
 class Compaction:
-    """A finished compaction: the ``table`` (columns of :data:`box.COLUMNS`, and ``voidRatioUsed [-]``) and what was
-    read from it.
+    """A finished compaction: the ``table`` (columns of :data:`capfrac.lab.box.COLUMNS`, and ``voidRatioUsed [-]``) and
+    what was read from it.
     """
 
     table: dict
@@ -61,8 +61,8 @@ def compact(
 
     ``preload`` [Pa]; ``strain`` at the end, or ``untilStress`` [Pa], whichever is first; ``loops``: strains at which to
     unload to the share ``unloadTo`` of the stress and reload. The rest as in the module's text. Raises
-    :class:`CaseError` for impossible values, :class:`SampleError` when the sample cannot be brought to the preload or
-    control is lost.
+    :class:`CaseError` for impossible values, :class:`SampleError` when the sample cannot be brought to
+    the preload or control is lost.
     """
     run = run or LabRun("compact", {})
     for name, value in (("preload", preload), ("strain", strain), ("unloadTo", unloadTo)):

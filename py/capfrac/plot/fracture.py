@@ -19,8 +19,8 @@ __all__ = ["branchText", "drawCrack", "drawFracture", "drawFractures", "drawRose
 def drawFracture(shot, found, path, advance=None):
     """One fracture: gas, cracked throats coloured by aperture, branches and tips; beside it what there is to show.
 
-    That is the rose of directions where there are branches, and with ``advance`` (see :func:`report.tipAdvance`) how
-    far each tip had come at which pressure. ``path``: .png, .pdf or .svg.
+    That is the rose of directions where there are branches, and with ``advance`` (see
+    :func:`capfrac.fracture.tipAdvance`) how far each tip had come at which pressure. ``path``: .png, .pdf or .svg.
     """
     scale, across, up = fitSample(shot, 4.6)
     angles, lengths = orientation.branchSteps(found)

@@ -17,10 +17,11 @@ def compress(sample, stressV, stressH, tolerance=0.005, unbalanced=1e-3, maxStep
     """Bring the box to the effective stresses ``stressV`` (vertical) and ``stressH`` (horizontal) [Pa], > 0.
 
     The bottom stays, the other walls move. Done when every wall is within ``tolerance`` (relative) of its target and
-    the grains are at rest (``unbalanced``, as in :func:`settle`). Raises :class:`SampleError` with the stresses that
-    were reached when ``maxSteps`` do not suffice, or as soon as the grains flow (see
-    :mod:`capfrac.scene.samplechecks`), and :class:`CaseError` when the targets are out of range: a stress that would
-    press contacts of the largest grains in by more than a tenth of the smallest radius is beyond the model.
+    the grains are at rest (``unbalanced``, as in :func:`capfrac.scene.settling.settle`). Raises
+    :class:`SampleError` with the stresses that were reached when ``maxSteps`` do not suffice, or as soon
+    as the grains flow (see :mod:`capfrac.scene.samplechecks`), and :class:`CaseError` when the targets are out of
+    range: a stress that would press contacts of the largest grains in by more than a tenth of the smallest radius is
+    beyond the model.
     """
     from yade import O, utils
 
@@ -66,7 +67,8 @@ def relax(unbalanced=1e-4, maxSteps=400_000, progress=None):
     """Let the grains come to rest under the walls' stresses, then stop what still moves.
 
     Grains without a loaded contact (rattlers) feel no force, hence no damping: they would drift through their pore
-    for ever with the speed they happen to have. Raises :class:`SampleError` when ``maxSteps`` do not suffice.
+    for ever with the speed they happen to have. Raises :class:`SampleError` when ``maxSteps`` do not
+    suffice.
     """
     from yade import utils
 

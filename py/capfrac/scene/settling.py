@@ -30,8 +30,8 @@ def settle(sample, unbalanced=0.01, maxSteps=400_000, progress=None):
     overlap by that share of their radius whatever the grain size. A pack of 1 um and one of 1 mm with the same
     seed then have the same shape, as they should: settling without cohesion knows no length but the grain's.
     Ends when the mean resultant force on the grains is below ``unbalanced`` times the mean contact force.
-    Raises :class:`SampleError` when ``maxSteps`` do not suffice, :class:`SceneError` when the scene holds fewer than
-    three grains.
+    Raises :class:`SampleError` when ``maxSteps`` do not suffice, :class:`SceneError` when the scene
+    holds fewer than three grains.
     """
     from yade import O, utils
 

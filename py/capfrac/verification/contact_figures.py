@@ -19,7 +19,8 @@ _PANELS = (
 
 
 def drawContacts(result, path):
-    """Draw force against displacement for all paths of :func:`checkContacts` to ``path`` (.png, .pdf or .svg).
+    """Draw force against displacement for all paths of :func:`capfrac.verification.contacts.checkContacts` to ``path``
+    (.png, .pdf or .svg).
 
     Marks are what the engines gave, full while the bond held; lines are Eqs. 1 and 2, dashed ones the strengths and
     friction limits.

@@ -8,10 +8,10 @@ it), and its pressure rises slowly until a bond at a tip breaks. With sigma the 
 
     P - sigma = sigma_c sqrt(alpha r/a),    K_Ic = (P - sigma) sqrt(pi a) f = sigma_c sqrt(pi alpha r),
 
-f being the correction for the width of the box (:func:`lattice_crack.finiteWidth`), alpha >= 1 a number of the packing
-(Potyondy & Cundall 2004). A pressure in the crack does not stretch the sample ahead of it as a pull from outside would:
-it lacks the uniform part of the stress, which counts when the crack is only some grains long. With that part c the bond
-at the tip breaks at
+f being the correction for the width of the box (:func:`capfrac.theory.lattice_crack.finiteWidth`), alpha >= 1 a number
+of the packing (Potyondy & Cundall 2004). A pressure in the crack does not stretch the sample ahead of it as a pull from
+outside would: it lacks the uniform part of the stress, which counts when the crack is only some grains long. With that
+part c the bond at the tip breaks at
 
     P - sigma = sigma_c/(sqrt(a f^2/(alpha r)) - c),
 

@@ -73,7 +73,8 @@ def checkUnits(sample=None, bulkModulus=1e7, viscosity=1e-3, systems=SYSTEMS, ru
     ``sample``: grains, contacts [SI]; the fluid's ``bulkModulus`` [Pa] and ``viscosity`` [Pa s]. For each of
     :data:`PROBLEMS`: ``curves`` by name of the system (rows of dimensionless numbers: for ``diffusion`` the pores'
     pressures over the one that was set, otherwise the fluid's mean pressure and the stress on the top wall, over K_f),
-    and ``differences``, the largest from the SI's over the largest number. :class:`CaseError` for impossible values.
+    and ``differences``, the largest from the SI's over the largest number. :class:`CaseError` for
+    impossible values.
     """
     sample = sample or defaultSample()
     run = run or LabRun("units", {})

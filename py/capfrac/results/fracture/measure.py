@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the fracture of an injection looks like in numbers, from the snapshots and the log of a run.
 
-:func:`measureFracture` measures one snapshot, :func:`tipAdvance` follows the tips through the events, :func:`reportRun`
-does both for a run folder and draws the pictures. Lengths are in metres, angles in degrees from the horizontal (axial,
-in [0, 180)), thickness 1 m.
+:func:`measureFracture` measures one snapshot, :func:`tipAdvance` follows the tips through the events,
+:func:`capfrac.results.fracture.report.reportRun` does both for a run folder and draws the pictures. Lengths are in
+metres, angles in degrees from the horizontal (axial, in [0, 180)), thickness 1 m.
 """
 
 import math
