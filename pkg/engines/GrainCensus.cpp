@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "GrainCensus.hpp"
+#include "CastOnce.hpp"
 
 #include "../network/GrainClusters.hpp"
 
@@ -21,25 +22,38 @@ namespace {
 	/// pressures round a grain cancel to round-off, which is far below, and the weight of a grain is far above.
 	constexpr Real noForce = 1e-9;
 
-	Real normalForce(const Interaction& interaction)
-	{
-		const auto* phys = dynamic_cast<const NormShearPhys*>(interaction.phys.get());
-		return phys ? phys->normalForce.norm() : 0;
-	}
+	/// Whether the normal force of a contact exceeds `least`.
+	struct Bears {
+		Real least;
+		CastOnce<NormShearPhys, IPhys> cast = {};
+		bool operator()(const Interaction& contact)
+		{
+			const auto* phys = cast(contact.phys.get());
+			return phys && phys->normalForce.norm() > least;
+		}
+	};
 
 	/// Whether a contact can pass a force on; of a law that does not tell, every one does.
-	bool transmits(const Interaction& interaction)
-	{
-		const auto* phys = dynamic_cast<const NormShearPhys*>(interaction.phys.get());
-		return !phys || phys->normalForce.squaredNorm() + phys->shearForce.squaredNorm() > 0;
-	}
+	struct Transmits {
+		CastOnce<NormShearPhys, IPhys> cast = {};
+		bool operator()(const Interaction& contact)
+		{
+			const auto* phys = cast(contact.phys.get());
+			return !phys || phys->normalForce.squaredNorm() + phys->shearForce.squaredNorm() > 0;
+		}
+	};
 
 	Real meanNormalForce(const Scene& scene)
 	{
+		CastOnce<NormShearPhys, IPhys> cast;
 		Real sum = 0;
 		int n = 0;
-		for (const auto& interaction : *scene.interactions)
-			if (interaction->isReal()) sum += normalForce(*interaction), ++n;
+		for (const auto& interaction : *scene.interactions) {
+			if (!interaction->isReal()) continue;
+			const auto* phys = cast(interaction->phys.get());
+			sum += phys ? phys->normalForce.norm() : 0;
+			++n;
+		}
 		return n > 0 ? sum / n : 0;
 	}
 
@@ -52,10 +66,9 @@ namespace {
 	template <class Wanted>
 	std::vector<capfrac::ContactPair> contactsThat(const Scene& scene, const SceneReader& reader, Wanted wanted)
 	{
-		std::vector<int> vertex(reader.nBodies, -1);
-		for (std::size_t v = 0; v < reader.grainIds.size() + capfrac::nWalls; ++v)
-			vertex[reader.bodyOf(static_cast<int>(v))] = static_cast<int>(v);
+		const auto& vertex = reader.vertices();
 		std::vector<capfrac::ContactPair> pairs;
+		pairs.reserve(scene.interactions->size());
 		for (const auto& interaction : *scene.interactions)
 			if (interaction->isReal() && wanted(*interaction))
 				pairs.push_back({ vertex[interaction->getId1()], vertex[interaction->getId2()] });
@@ -108,8 +121,7 @@ Real GrainCensus::largestLoaded(
 std::vector<int> rattlersNow(const Scene& scene, const SceneReader& reader)
 {
 	const Real least = loadedShare * meanNormalForce(scene);
-	const auto loaded = contactsThat(
-	        scene, reader, [least](const Interaction& contact) { return normalForce(contact) > least; });
+	const auto loaded = contactsThat(scene, reader, Bears { least });
 	const int n = static_cast<int>(reader.grainIds.size());
 	const auto bears = capfrac::loadBearing(n, n + capfrac::nWalls, loaded);
 	std::vector<int> found;
@@ -143,6 +155,7 @@ bool wallsAtRest(const Scene& scene, const SceneReader& reader, Real limit, int 
 
 Real periodOfGrains(const Scene& scene, const SceneReader& reader)
 {
+	CastOnce<NormPhys, IPhys> cast;
 	Real mass = 0, stiffness = 0;
 	int nContacts = 0;
 	for (auto id : reader.grainIds)
@@ -165,7 +178,7 @@ void brakeLooseGrains(Scene& scene, const Engine& asking, const SceneReader& rea
 		const auto& body = *(*scene.bodies)[reader.grainIds[i]];
 		held[i] = !forces.move(body) || body.state->blockedDOFs & (State::DOF_X | State::DOF_Y);
 	}
-	const auto loose = capfrac::looseClusters(held, contactsThat(scene, reader, transmits));
+	const auto loose = capfrac::looseClusters(held, contactsThat(scene, reader, Transmits {}));
 	bool any = false;
 	for (std::size_t i = 0; i < reader.grainIds.size() && !any; ++i) {
 		const auto& state = *(*scene.bodies)[reader.grainIds[i]]->state;

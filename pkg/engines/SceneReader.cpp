@@ -78,6 +78,7 @@ void SceneReader::find(const Scene& from)
 	grainIds = std::move(foundGrains);
 	scene = &from;
 	nBodies = from.bodies->size();
+	vertexOfBody.clear();
 	read(from);
 }
 
@@ -134,6 +135,16 @@ std::vector<int> SceneReader::ids() const
 	std::vector<int> all(grainIds.begin(), grainIds.end());
 	all.insert(all.end(), wallIds.begin(), wallIds.end());
 	return all;
+}
+
+const std::vector<int>& SceneReader::vertices() const
+{
+	if (vertexOfBody.size() == nBodies) return vertexOfBody;
+	vertexOfBody.assign(nBodies, -1);
+	const auto bodies = ids();
+	for (std::size_t v = 0; v < bodies.size(); ++v)
+		vertexOfBody[bodies[v]] = static_cast<int>(v);
+	return vertexOfBody;
 }
 
 int SceneReader::vertexOf(Body::id_t id) const

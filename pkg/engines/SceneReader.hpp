@@ -35,6 +35,8 @@ struct SceneReader {
 	void addForces(Scene& to, const capfrac::FluidForces& forces, Real thickness) const;
 	/// Lets the grains grow by so much [m] (empty: not at all), radii being those that were read.
 	void grow(Scene& to, const std::vector<Real>& growth) const;
+	/// The vertex of each body; -1 where it is none.
+	const std::vector<int>& vertices() const;
 	/// The vertex of a body; -1 where it is none.
 	int vertexOf(Body::id_t id) const;
 	/// The body of a vertex of the triangulation (grain or wall).
@@ -46,11 +48,16 @@ struct SceneReader {
 	/// The bodies of all vertices, grains first, then walls.
 	std::vector<int> ids() const;
 
+private:
+	mutable std::vector<int> vertexOfBody; ///< empty until it is asked for
+
+public:
 	template <class Archive> void serialize(Archive& archive, unsigned)
 	{
 		archive& boost::serialization::make_nvp("grainIds", grainIds);
 		archive& boost::serialization::make_nvp("wallIds", wallIds);
 		archive& boost::serialization::make_nvp("nBodies", nBodies);
+		vertexOfBody.clear();
 	}
 };
 

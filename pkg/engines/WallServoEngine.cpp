@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "WallServoEngine.hpp"
 #include "Attributes.hpp"
+#include "CastOnce.hpp"
 #include "EngineErrors.hpp"
 #include "PoreNetworkEngine.hpp"
 #include "StepOrder.hpp"
@@ -85,13 +86,13 @@ const std::array<Real, capfrac::nWalls>& WallServoEngine::contactStiffness()
 	if (stiffnessOf == scene->iter) return stiffnessNow;
 	stiffnessOf = scene->iter;
 	stiffnessNow.fill(0);
+	CastOnce<NormPhys, IPhys> cast;
 	for (const auto& interaction : *scene->interactions) {
 		if (!interaction->isReal()) continue;
 		for (int w = 0; w < capfrac::nWalls; ++w) {
 			if (interaction->getId1() != reader.wallIds[w] && interaction->getId2() != reader.wallIds[w])
 				continue;
-			if (const auto* phys = dynamic_cast<const NormPhys*>(interaction->phys.get()))
-				stiffnessNow[w] += phys->kn;
+			if (const auto* phys = cast(interaction->phys.get())) stiffnessNow[w] += phys->kn;
 		}
 	}
 	return stiffnessNow;
