@@ -12,7 +12,7 @@ from pathlib import Path
 
 from capfrac import fracture, snapshot
 from capfrac.plot import fracture as figures
-from capfrac.verification.toughness import drawToughness
+from capfrac.verification.toughness_figures import drawToughness
 
 HERE = Path(__file__).parent
 

@@ -11,7 +11,7 @@ import shutil
 import sys
 from pathlib import Path
 
-from capfrac.lab import figures
+from capfrac.lab import strength_figures
 
 HERE = Path(__file__).parent
 PICTURES = {
@@ -107,7 +107,7 @@ def main(runs):
     for test, names in DATA.items():
         for name in names:
             shutil.copy(runs / test / "tables" / f"{name}.csv", HERE / "data" / f"{name}.csv")
-    figures.drawSensitivity(results(runs, "sensitivity"), folder / "sensitivity.png")
+    strength_figures.drawSensitivity(results(runs, "sensitivity"), folder / "sensitivity.png")
     path = HERE / "laboratory.md"
     text = path.read_text(encoding="utf-8")
     for name, make in TABLES.items():

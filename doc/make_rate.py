@@ -12,9 +12,9 @@ import numpy as np
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "tests" / "validation"))
 
-from rate import LARGE, NUDGED, RUNS, SMALL, one, table  # noqa: E402
+from rate import LARGE, NUDGED, RUNS, SMALL, one, table
 
-from capfrac.plot.figures import COLOURS, newFigure, saveFigure  # noqa: E402
+from capfrac.plot.figures import COLOURS, newFigure, saveFigure
 
 STYLES = {
     "ramp": ("prescribed: a ramp of 1 kPa steps", "0.45", "-"),

@@ -15,11 +15,11 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab import compaction
+from capfrac.lab import stiffness
 
 
 def main(folder=None, grainCount=300, compressionIndex=0.5):
-    found = compaction.findStiffness(
+    found = stiffness.findStiffness(
         sediment.Sediment(grainCount=grainCount, rMin=1e-3, seed=1), compressionIndex, voidRatio=1.5, tolerance=0.02
     )
     print(

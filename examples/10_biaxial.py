@@ -14,7 +14,7 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab import biaxial, figures
+from capfrac.lab import biaxial, strength_figures
 
 
 def main(folder=None, grainCount=300, stresses=(20e3, 50e3, 100e3), strain=0.08):
@@ -25,7 +25,7 @@ def main(folder=None, grainCount=300, stresses=(20e3, 50e3, 100e3), strain=0.08)
         f"E = {found['youngModulus']:.4g} Pa, nu = {found['poissonRatio']:.3f}, phi ="
         f" {found['frictionAngle']:.1f} degrees, c = {found['cohesion']:.4g} Pa"
     )
-    figures.drawBiaxial(found, f"{folder or '.'}/biaxial.png")
+    strength_figures.drawBiaxial(found, f"{folder or '.'}/biaxial.png")
     return found
 
 

@@ -13,14 +13,14 @@ import capfrac
 
 capfrac.load_engines()
 
-from capfrac.verification import contacts
+from capfrac.verification import contact_figures, contacts
 
 
 def main(folder=None):
     found = contacts.checkContacts()
     for name, path in found.items():
         print(f"{name}: largest error {path['error']:.2g} of the largest force")
-    contacts.drawContacts(found, f"{folder or '.'}/contacts.png")
+    contact_figures.drawContacts(found, f"{folder or '.'}/contacts.png")
     return found
 
 

@@ -15,8 +15,7 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.lab import undrained
-from capfrac.verification import figures
+from capfrac.lab import undrained, undrained_figures
 
 
 def main(folder=None, grainCount=100, bulkModuli=(1e7, 2.2e9), strain=0.01):
@@ -27,7 +26,7 @@ def main(folder=None, grainCount=100, bulkModuli=(1e7, 2.2e9), strain=0.01):
             f"K_f = {bulkModulus:.3g} Pa: b = {result['biot']:.3f} +- {result['biotError']:.3f}, misfit"
             f" {result['misfit']:.1%}, water lost {result['ledger']:.1g}"
         )
-        figures.drawUndrained(result, f"{folder or '.'}/undrained-{bulkModulus:g}.png")
+        undrained_figures.drawUndrained(result, f"{folder or '.'}/undrained-{bulkModulus:g}.png")
     return found
 
 

@@ -17,7 +17,7 @@ import capfrac
 capfrac.load_engines()
 
 from capfrac import sediment
-from capfrac.verification import toughness
+from capfrac.verification import toughness, toughness_figures
 
 
 def main(folder=".", grainCount=300, columns=24, brokenContacts=(1, 3, 5), halfLengths=(3.0, 4.5, 7.0), seeds=1):
@@ -35,7 +35,7 @@ def main(folder=".", grainCount=300, columns=24, brokenContacts=(1, 3, 5), halfL
         )
     for test in found["samples"]["tests"]:
         print(f"sample, a = {test['halfLength'] / test['radius']:.1f} r: {test['pressure'] / 1e3:.1f} kPa")
-    toughness.drawToughness(found, f"{folder}/toughness.png")
+    toughness_figures.drawToughness(found, f"{folder}/toughness.png")
     return found
 
 

@@ -16,11 +16,12 @@ import capfrac
 
 capfrac.load_engines()
 
-from yade import O  # noqa: E402  (YADE must be found by capfrac first)
+from yade import O  # YADE must be found by capfrac first
 
-from capfrac import sediment  # noqa: E402
+from capfrac import sediment
+from capfrac.scene import filling
 
-from settled import buildSettled, same  # noqa: E402
+from settled import buildSettled, same
 
 #: By how much of its radius ``--nudge`` moves a grain [-]: some thousand roundings.
 NUDGE = 1e-12
@@ -78,13 +79,13 @@ def nudge(request):
 def nudgedSamples(nudge, monkeypatch):
     """Samples that a test draws are nudged before they settle."""
     if nudge is not same:
-        place = sediment.placeGrains
+        place = filling.placeGrains
 
         def placed(sample, radii):
             x, y, *size = place(sample, radii)
             return *nudge((x, y), radii), *size
 
-        monkeypatch.setattr(sediment, "placeGrains", placed)
+        monkeypatch.setattr(filling, "placeGrains", placed)
 
 
 @pytest.fixture(scope="session")

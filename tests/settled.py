@@ -19,9 +19,9 @@ import capfrac
 
 capfrac.load_engines()
 
-from yade import O  # noqa: E402  (YADE must be found by capfrac first)
+from yade import O  # YADE must be found by capfrac first
 
-from capfrac import packing, sediment  # noqa: E402
+from capfrac import packing, sediment
 
 GRAINS, CONTACTS = (Path(__file__).parent / "data" / f"settled_{name}.csv" for name in ("grains", "contacts"))
 #: Cohesion, chi gamma with chi = 10 as in the paper [N/m].

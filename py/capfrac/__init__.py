@@ -58,7 +58,7 @@ MODULES = {
     "sweep": "capfrac.sweep",
 }
 
-__all__ = ["CapfracError", "CaseError", "SampleError", "SceneError", "load_engines", *MODULES]
+__all__ = ["CapfracError", "CaseError", "SampleError", "SceneError", "load_engines"]
 
 
 def __getattr__(name):

@@ -54,54 +54,6 @@ def _parser():
     return parser
 
 
-class _Progress:
-    """One line of progress: text while the sample is made, a bar of pressure and saturation afterwards."""
-
-    def __init__(self, case, quiet):
-        self.ramp, self.quiet, self.meter, self.last = case["ramp"], quiet, None, ""
-        #: A ramp tells how far the run is; a rate, a reservoir or a program does not: a fracture may end it at any
-        #: time.
-        self.ramped = case["supply"]["control"] == "pressure" and not case["supply"]["program"]
-
-    def report(self, text):
-        if self.quiet:
-            return
-        label = text.split(":")[0]
-        if label == "warning":  # stays on the terminal
-            sys.stderr.write(("\r\033[K" if sys.stderr.isatty() else "") + text + "\n")
-        elif sys.stderr.isatty():
-            sys.stderr.write(f"\r\033[K{text}")
-        elif label != self.last:  # in a log one line a stage is enough
-            sys.stderr.write(f"{label}\n")
-        self.last = label
-        sys.stderr.flush()
-
-    def bar(self, pressure, saturation):
-        if self.quiet:
-            return
-        if self.meter is None:
-            from tqdm import tqdm
-
-            if sys.stderr.isatty():
-                sys.stderr.write("\r\033[K")
-            total = self.ramp["max"] - self.ramp["start"] if self.ramped else None
-            bar = "{percentage:3.0f}%|{bar:25}| {elapsed}<{remaining}" if self.ramped else "{elapsed}"
-            self.meter = tqdm(
-                total=total,
-                unit="Pa",
-                unit_scale=True,
-                desc="gas",
-                bar_format=f"{{desc}} {bar} {{postfix}}",
-                mininterval=0.5 if sys.stderr.isatty() else 15,
-            )
-        self.meter.set_postfix_str(f"P_c = {pressure:.4g} Pa, S_g = {saturation:.1%}", refresh=False)
-        self.meter.update(pressure - self.ramp["start"] - self.meter.n if self.ramped else 1)
-
-    def close(self):
-        if self.meter is not None:
-            self.meter.close()
-
-
 def _inject(arguments):
     from capfrac.case.read import readCase
     from capfrac.results import mode
@@ -109,8 +61,9 @@ def _inject(arguments):
     case = readCase(arguments.case, arguments.set)
     folder = arguments.output or os.path.join("runs", f"{case['case']['name']}-seed{case['grains']['seed']}")
     from capfrac.run.injection import inject
+    from capfrac.run.progress import GasProgress
 
-    progress = _Progress(case, arguments.quiet)
+    progress = GasProgress(case, arguments.quiet)
     try:
         summary = inject(
             case, folder, restart=arguments.restart, report=progress.report, bar=progress.bar, threads=arguments.threads

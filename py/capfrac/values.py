@@ -5,6 +5,8 @@ import difflib
 import math
 import numbers
 
+from capfrac.errors import CaseError
+
 #: Most grains of a sample [-]: more would settle for weeks.
 MOST_GRAINS = 1_000_000
 #: Largest seed [-]: the largest whole number of a TOML file.
@@ -66,3 +68,16 @@ def didYouMean(name, known):
     close = difflib.get_close_matches(str(name), known, n=1)
     names = [*known][:20] + ["…"] * (len(known) > 20)
     return f"; did you mean '{close[0]}'?" if close else f"; known: {', '.join(names)}"
+
+
+def exactText(value, form=".15g"):
+    """A number as part of a name, as ``form`` writes it where that is exact: different numbers have different names."""
+    text = format(float(value), form)
+    return text if float(text) == value else repr(float(value))
+
+
+def requirePositive(**values):
+    """Raise :class:`CaseError` that names the first of the values that is not a finite number > 0."""
+    for name, value in values.items():
+        if not isPositive(value):
+            raise CaseError(f"{name} = {shown(value)}, allowed: a finite number > 0")

@@ -113,9 +113,8 @@ def test_grainSizeDoesNotMatter():
 def test_pressureDiffusion(tmp_path):
     results = example("14_pressure_diffusion").main(str(tmp_path / "run"), grainCount=100, steps=100, explicitGrains=30)
     assert 5e-3 < results["kOverR2"] < 1.3e-2  # 9.05e-3 in large random packs
-    assert results["storageTimesBulkModulus"] == pytest.approx(
-        results["porosityBetween"], rel=0.05
-    )  # what weighs the porosity differently: see the verification
+    # what weighs the porosity differently: see the verification
+    assert results["storageTimesBulkModulus"] == pytest.approx(results["porosityBetween"], rel=0.05)
     assert max(results["placeErrors"]["rms"]) < 1  # within a grain of Eq. 20 at all times
     for picture in ("figure11", "figure12", "explicit"):
         assert (tmp_path / "run" / "pictures" / f"{picture}.png").stat().st_size > 5000

@@ -27,7 +27,10 @@ def board(gas=(), cracked=(), inlet=((MIDDLE, MIDDLE),), lift=None):
     """A snapshot: ``gas`` and ``inlet`` are cells (column, row), ``cracked`` pairs of neighbouring cells; ``lift``
     (row, distance) raises all grains above it.
     """
-    corner = lambda i, j: j * (N + 1) + i  # noqa: E731
+
+    def corner(i, j):
+        return j * (N + 1) + i
+
     x, y = (v.ravel().astype(float) for v in np.meshgrid(np.arange(N + 1), np.arange(N + 1)))
     if lift:
         y = y + np.where(y > lift[0], lift[1], 0.0)
@@ -44,7 +47,10 @@ def board(gas=(), cracked=(), inlet=((MIDDLE, MIDDLE),), lift=None):
                 throats.append((corner(i, j + 1), corner(i + 1, j + 1)))
                 sides.append((j * N + i, (j + 1) * N + i))
     throatOf = dict(zip(sides, throats))
-    index = lambda cell: cell[1] * N + cell[0]  # noqa: E731
+
+    def index(cell):
+        return cell[1] * N + cell[0]
+
     broken = [throatOf[tuple(sorted((index(a), index(b))))] for a, b in cracked]
     phase, source = np.zeros(N * N, dtype=int), np.zeros(N * N, dtype=bool)
     phase[[index(c) for c in (*gas, *inlet)]] = snapshot.GAS
@@ -114,9 +120,8 @@ def test_straightCrackHasTwoTipsAndOneDirection():
     ]
     assert [branch.openedThroats for branch in found.branches] == [10, 10]
     assert numbers["crackedThroats"] == 20 and len(numbers["brokenBonds"]) == 20
-    assert {bond["angle [degrees]"] for bond in numbers["brokenBonds"]} == {
-        0.0
-    }  # the grains lie above each other, the crack between them
+    # the grains lie above each other, the crack between them
+    assert {bond["angle [degrees]"] for bond in numbers["brokenBonds"]} == {0.0}
     for kind in ("extent", "branches"):
         measured = numbers["orientation"][kind]
         assert measured["resultant"] == pytest.approx(1) and measured["mean [degrees]"] % 180 == pytest.approx(0)
@@ -150,7 +155,9 @@ def test_forkedBranchEndsAtTheFork():
 
 
 def test_shortSpursAreNoBranches():
-    spur = lambda n: arm([(0, 1)] * n, (MIDDLE + 5, MIDDLE))  # noqa: E731
+    def spur(n):
+        return arm([(0, 1)] * n, (MIDDLE + 5, MIDDLE))
+
     for length, count in ((3, 1), (4, 2)):
         assert len(fracture.findFracture(cracks(arm(EAST), spur(length)), START).branches) == count
     assert len(fracture.findFracture(cracks(arm(EAST), spur(3)), START, shortest=2.5).branches) == 2
@@ -237,9 +244,8 @@ def test_tipsAdvanceWithTheEvents():
     assert rows["event"] == [1, 2, 3, 4, 5]  # the last lies on no branch
     assert rows["branch"] == [2, 2, 2, 2, 1]  # north is longer
     assert rows["tipDistance [m]"] == pytest.approx([1, 3, 3, 7, 5])
-    assert rows["tipSpeed [m/s]"] == pytest.approx(
-        [math.nan, 2, math.nan, 1, math.nan], nan_ok=True
-    )  # 4 in the 4 seconds since it last moved
+    # 4 in the 4 seconds since it last moved
+    assert rows["tipSpeed [m/s]"] == pytest.approx([math.nan, 2, math.nan, 1, math.nan], nan_ok=True)
 
 
 @pytest.mark.parametrize("stretch", [1, 3])  # of the box: a flat one, too

@@ -120,7 +120,10 @@ def test_renumberedGrainsGiveTheSameEvents(rigid, packing, poreMode, trapping):
     plain, events = run(range(count))
     order = np.random.default_rng(4).permutation(count)
     shuffled, events2 = run(order)
-    name = lambda body: int(order[body - 4]) + 4 if body >= 4 else body
+
+    def name(body):
+        return int(order[body - 4]) + 4 if body >= 4 else body
+
     assert [frozenset(t) for t in events["throat"]] == [frozenset(map(name, t)) for t in events2["throat"]]
     for column in ("iteration", "level", "gasPressure", "cells"):
         assert events[column] == events2[column]

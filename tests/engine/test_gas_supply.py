@@ -77,9 +77,8 @@ def test_programGoesUpAndDown(rigid):
     # Levels: each turning point is met exactly; a point that is there already is none of its own.
     assert gas.levels()["pressure"] == [100, 130, 160, 190, 160, 130, 160] and gas.rampDone and gas.programPosition == 4
     saturations = gas.levels()["gasSaturation"]
-    assert (
-        saturations == sorted(saturations) and saturations[3] == saturations[-1]
-    )  # no imbibition: what is filled stays filled
+    # no imbibition: what is filled stays filled
+    assert saturations == sorted(saturations) and saturations[3] == saturations[-1]
     gas.pressureProgram = [220]
     assert not gas.rampDone and gas.programPosition == 0
     O.run(200, True)
@@ -102,9 +101,8 @@ def test_massUnderPressureIsDensityTimesVolume(rigid):
         assert massIn(gas) == pytest.approx(
             DENSITY_PER_PRESSURE * (pressure + DATUM) * (RESERVOIR + gas.volumes()["gas"]), rel=ROUND_OFF
         )
-    assert pressure == 130 and massIn(gas) < DENSITY_PER_PRESSURE * (190 + DATUM) * (
-        RESERVOIR + gas.volumes()["gas"]
-    )  # some went back
+    # some went back
+    assert pressure == 130 and massIn(gas) < DENSITY_PER_PRESSURE * (190 + DATUM) * (RESERVOIR + gas.volumes()["gas"])
 
 
 # --- the pressure follows -------------------------------------------------------------------------
@@ -140,9 +138,8 @@ def fullOfGas(rigid, **attributes):
 def test_pistonCompressesTheGas(rigid, reservoir):
     gas = fullOfGas(rigid, reservoirVolume=reservoir)
     O.step()
-    assert gas.gasPressure == pytest.approx(
-        1000, rel=ROUND_OFF
-    )  # the same gas: nothing jumps where the control changes
+    # the same gas: nothing jumps where the control changes
+    assert gas.gasPressure == pytest.approx(1000, rel=ROUND_OFF)
     constant = (1000 + DATUM) * (reservoir + gas.volumes()["void"])
     mass = massIn(gas)
     top = O.bodies[3]
@@ -163,12 +160,10 @@ def test_gasDoesNotGetThinnerThanTheWater(rigid):
     O.step()
     volumes = gas.volumes()
     assert gas.gasPressure == 0 == gas.waterPressure
-    assert volumes["gas"] == pytest.approx(
-        mass / (DENSITY_PER_PRESSURE * DATUM), rel=ROUND_OFF
-    )  # p V = const down to the water's pressure
-    assert (
-        before < volumes["gas"] < 0.9 * volumes["void"] and volumes["error"] < 1e-12
-    )  # the rest is water that came in
+    # p V = const down to the water's pressure
+    assert volumes["gas"] == pytest.approx(mass / (DENSITY_PER_PRESSURE * DATUM), rel=ROUND_OFF)
+    # the rest is water that came in
+    assert before < volumes["gas"] < 0.9 * volumes["void"] and volumes["error"] < 1e-12
     top.state.pos -= (0, 0.04, 0)
     O.step()
     assert gas.gasPressure == pytest.approx(1000, rel=1e-11) and massIn(gas) == pytest.approx(mass, rel=ROUND_OFF)
@@ -411,11 +406,11 @@ def test_risePerPeriodIsThatOfTheFirstSteps(loadSample):
 )
 def test_refusedAssignmentsChangeNothing(name, good, bad):
     gas = GasInvasionEngine()
-    value = lambda: (
-        [tuple(v) if name == "gasTable" else v for v in getattr(gas, name)]
-        if isinstance(good, list)
-        else getattr(gas, name)
-    )
+
+    def value():
+        found = getattr(gas, name)
+        return [tuple(v) if name == "gasTable" else v for v in found] if isinstance(good, list) else found
+
     first = value()
     with pytest.raises(ValueError, match=f"{name}.* allowed:"):
         setattr(gas, name, bad)

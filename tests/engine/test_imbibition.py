@@ -88,8 +88,13 @@ class Oracle:
                 return 0
         elif len(grains) == 2:
             (axis, at), ((a, ra), (b, rb)) = walls[0], grains
-            place = lambda t: np.array([at, t] if axis == 0 else [t, at])
-            room = lambda t: np.linalg.norm(place(t) - a) - ra - np.linalg.norm(place(t) - b) + rb
+
+            def place(t):
+                return np.array([at, t] if axis == 0 else [t, at])
+
+            def room(t):
+                return np.linalg.norm(place(t) - a) - ra - np.linalg.norm(place(t) - b) + rb
+
             low, high = a[1 - axis], b[1 - axis]
             if room(low) * room(high) > 0:
                 return 0

@@ -103,9 +103,8 @@ def test_isotropicAndK0(loadSample):
     box.setReference()
     box.mode("isotropic")
     box.stressTo([20e3, 40e3])
-    np.testing.assert_allclose(
-        box.rows["stressV [Pa]"], [20e3, 40e3], rtol=2 * SERVO_TOLERANCE
-    )  # top 0.5 %, bottom follows at rest
+    # top 0.5 %, bottom follows at rest
+    np.testing.assert_allclose(box.rows["stressV [Pa]"], [20e3, 40e3], rtol=2 * SERVO_TOLERANCE)
     np.testing.assert_allclose(box.rows["stressH [Pa]"], [20e3, 40e3], rtol=SERVO_TOLERANCE)
     width = box.lengths()[0]
     box.mode("k0")

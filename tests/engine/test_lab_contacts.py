@@ -18,7 +18,7 @@ from yade import O
 from capfrac import sediment
 from capfrac.errors import CaseError, SceneError
 from capfrac.lab.run import LabRun
-from capfrac.verification import contacts
+from capfrac.verification import contact_figures, contact_paths, contacts
 
 EPSILON = sys.float_info.epsilon
 R1, R2 = 1e-3, 1.7e-3
@@ -72,9 +72,8 @@ def test_bondsBreakAtTheirStrength(values):
     for name in ("tension", "shear", "recontact"):
         found = result[name]
         if sample.shearStiffness == 0 and name != "tension":
-            assert math.isnan(found["brokeAt"]) and all(
-                found["table"]["bonded"]
-            )  # there is no shear that could break it
+            # there is no shear that could break it
+            assert math.isnan(found["brokeAt"]) and all(found["table"]["bonded"])
             continue
         assert found["borne"] == pytest.approx(found["strength"] * (1 - 1e-9), rel=1e-11), name
         assert found["brokeAt"] == pytest.approx(found["strength"] * (1 + 1e-9), rel=1e-11), name
@@ -217,11 +216,11 @@ def test_equationsByHand():
 def test_pathsHoldTheBracketOfTheStrength(path):
     overlaps, slips = path
     assert len(overlaps) == len(slips) and overlaps[0] > 0 and slips[0] == 0
-    for edge in (2e-6 * (1 - contacts.BRACKET), 2e-6 * (1 + contacts.BRACKET)):
+    for edge in (2e-6 * (1 - contact_paths.BRACKET), 2e-6 * (1 + contact_paths.BRACKET)):
         assert -edge in overlaps or edge in slips
     # Nothing reaches the strength before the bracket does.
     first = next(k for k, (u, s) in enumerate(zip(overlaps, slips)) if -u >= 2e-6 or s >= 2e-6)
-    assert 2e-6 * (1 + contacts.BRACKET) in (-overlaps[first], slips[first])
+    assert 2e-6 * (1 + contact_paths.BRACKET) in (-overlaps[first], slips[first])
 
 
 # ---- the scene, the run, the picture
@@ -246,7 +245,7 @@ def test_runKeepsWhatHasBeenChecked(tmp_path, monkeypatch):
 def test_pictureIsTheSameFromTheSameNumbers(tmp_path, values):
     result = contacts.checkContacts(grains(**values))
     for name in ("one.svg", "other.svg"):
-        contacts.drawContacts(result, tmp_path / name)
+        contact_figures.drawContacts(result, tmp_path / name)
     text = (tmp_path / "one.svg").read_bytes()
     assert text == (tmp_path / "other.svg").read_bytes()
     assert b"<svg" in text
@@ -254,4 +253,4 @@ def test_pictureIsTheSameFromTheSameNumbers(tmp_path, values):
 
 def test_pictureOfAnotherKindIsRefused(tmp_path):
     with pytest.raises(CaseError, match=r"\.bmp', allowed: \.png, \.pdf, \.svg"):
-        contacts.drawContacts(contacts.checkContacts(grains()), tmp_path / "contacts.bmp")
+        contact_figures.drawContacts(contacts.checkContacts(grains()), tmp_path / "contacts.bmp")

@@ -383,6 +383,5 @@ def test_caseFilesSwitchThemOn(law, tmp_path, capsys):
         assert found[0].law == law and found[0].nMenisci > 10 and found[0].energy < 0
         gamma = sediment.engine("gas").interfacialTension
         largest = 2 * 5 * gamma if law == "constant" else math.pi * gamma
-        assert max(found[0].menisci()["force"]) == pytest.approx(
-            largest, rel=0.02
-        )  # of grains in contact, nearly equal
+        # of grains in contact, nearly equal
+        assert max(found[0].menisci()["force"]) == pytest.approx(largest, rel=0.02)

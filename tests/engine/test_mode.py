@@ -39,9 +39,8 @@ def modeOf(now, kinds=("rigid",) * 9, **options):
 
 def test_crackAllAlong():
     found = passage.findPassage(lattice(CRACK, opened(5, 0.1)), START)
-    assert (
-        found.through and len(found.fewestRigid.cells) == 2 * ROWS
-    )  # from the cell on the floor to that below the roof
+    # from the cell on the floor to that below the roof
+    assert found.through and len(found.fewestRigid.cells) == 2 * ROWS
     for way in (found.fewestRigid, found.fewestOpened):
         assert (way.opened, way.rigid, way.openedShare) == (ROWS, 0, 1.0)
     # The column is wider by 0.1 over its whole height.
@@ -92,9 +91,8 @@ def test_roomDoesNotSeeWhatHappensWithinTheGas():
     rng = np.random.default_rng(1)
     for _ in range(5):
         moved = opened(5, 0.1)
-        moved[grain(5, rng.integers(1, ROWS - 1))] += rng.uniform(
-            -3, 3, 2
-        )  # a grain within the body of gas, with 3 radii and more
+        # a grain within the body of gas, with 3 radii and more
+        moved[grain(5, rng.integers(1, ROWS - 1))] += rng.uniform(-3, 3, 2)
         expected = 0.1 * ROWS / (len(BODY) * COLUMN_VOID + 0.1 * ROWS)
         assert passage.madeRoom(lattice(BODY, moved), START) == pytest.approx(expected, rel=1e-12)
 

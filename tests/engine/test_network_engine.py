@@ -124,7 +124,10 @@ def test_renumberingChangesNothing(networkOf, looseDisks, poreMode):
     def look(numbering):
         """Voids, domains and forces, with grains called by their place in `disks`, walls by -1 … -4."""
         engine = networkOf([disks[k] for k in numbering], box, poreMode=poreMode)
-        name = lambda body: int(numbering[body - 4]) if body >= 4 else body - 4
+
+        def name(body):
+            return int(numbering[body - 4]) if body >= 4 else body - 4
+
         cells = engine.cells()
         keys = [frozenset(map(name, v)) for v in cells["vertices"]]
         # A pressure that belongs to the place, not to the number.

@@ -3,13 +3,14 @@
 
 from pathlib import Path
 
+import matplotlib
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 
 from capfrac import curve, cycles, figures, fracture, history
 from capfrac.errors import CaseError
-from capfrac.plot import fracture as fractures
+from capfrac.plot import crack, fracture as fractures
 from capfrac.sweep import depth_figures, regime_figures, regime_map
 from figurechecks import Drawn, check
 from test_fracture import EAST, NORTH, START, arm, board, cracks
@@ -264,8 +265,8 @@ def test_manyFracturesSideBySide(drawn, tmp_path):
 @pytest.mark.parametrize("largest", [1.0, 1.7, 3.0, 12.0, 150.0])
 def test_numbersOfTheScaleOfAperturesDoNotTouch(drawn, tmp_path, largest):
     with figures.newFigure((3.0, 1.0)) as figure:
-        colours = fractures.matplotlib.cm.ScalarMappable(fractures.matplotlib.colors.LogNorm(0.1, largest), "inferno_r")
-        fractures.colourBar(figure, figure.add_axes([0.1, 0.5, 0.75, 0.1]), colours)
+        colours = matplotlib.cm.ScalarMappable(matplotlib.colors.LogNorm(0.1, largest), "inferno_r")
+        crack.colourBar(figure, figure.add_axes([0.1, 0.5, 0.75, 0.1]), colours)
         figures.saveFigure(figure, tmp_path / "b.png")
     check(drawn.last)
     assert len([text for text in drawn.last.axes[0].get_xticklabels() if text.get_text()]) >= 2

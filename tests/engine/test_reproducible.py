@@ -4,7 +4,7 @@
 import pytest
 from yade import O
 
-from capfrac import injection, sediment
+from capfrac import injection, packing, sediment
 
 
 def bits():
@@ -39,7 +39,7 @@ def test_drawnSampleHasTheShapeOfItsSeedWhateverItsSize(scale):
     # Radii and places scale with rMin to round-off: a sample of 1 um can be compared with one of 1 mm, grain by grain.
     def drawn(factor):
         sample = sediment.Sediment(grainCount=12, rMin=1e-3 * factor, rMax=2e-3 * factor, seed=3)
-        x, y, width, height = sediment.placeGrains(sample, sediment.drawRadii(sample))
+        x, y, width, height = packing.placeGrains(sample, packing.drawRadii(sample))
         return [v / factor for v in (*x, *y, width, height)]
 
     assert drawn(scale) == pytest.approx(drawn(1.0), rel=1e-12)

@@ -62,7 +62,7 @@ def test_aSampleThatFlowsIsStopped(stressV, stressH):
     # With friction 0.2 none of ten samples bore a ratio of 3, and none of thirty of any friction one of 4.
     steps = []
     with pytest.raises(
-        SampleError, match=r"the sample flows under sigma_V = .* \(stress.vertical\), sigma_H = .* a " r"side"
+        SampleError, match=r"the sample flows under sigma_V = .* \(stress.vertical\), sigma_H = .* a side"
     ) as caught:
         sediment.makeSample(
             sediment.Sediment(grainCount=40, rMin=R, rMax=2 * R, friction=0.2),

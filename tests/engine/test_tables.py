@@ -109,6 +109,7 @@ def test_decimalCommas(tmp_path, separator):
 
 def test_whatOtherProgramsWrite(tmp_path):
     rows = "\n".join("\t".join((x, y, "0", r)) for x, y, r in GRAINS)
+    # Fortran
     for text in (
         f"#format x_y_z_r\n{rows}\n",  # yade.export.text
         f"# x y z r\n{rows}\n",  # numpy.savetxt
@@ -119,7 +120,7 @@ def test_whatOtherProgramsWrite(tmp_path):
         "x,y,r,note\n" + "\n".join(f'{x},{y},{r},"large, round # {x}"' for x, y, r in GRAINS),
         "x y r  # in metres\n" + "\n".join(f"  {x}  {y}  {r}  # {x}" for x, y, r in GRAINS),
         "  x,  y,  r\n" + "\n".join(f"  {x},  {y},  {r.replace('e', 'D')}" for x, y, r in GRAINS),
-    ):  # Fortran
+    ):
         assert np.array_equal(read(write(tmp_path / "packing.csv", text)), VALUES), text
 
 

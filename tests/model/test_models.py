@@ -48,7 +48,9 @@ def squeezed(sample, strain):
 
 
 def test_yadeIsNotThere():
-    code = "import sys; from capfrac import _kernels; print('yade' in sys.modules, hasattr(_kernels, 'DrainedInvasion'))"
+    code = (
+        "import sys; from capfrac import _kernels; print('yade' in sys.modules, hasattr(_kernels, 'DrainedInvasion'))"
+    )
     package = str(Path(capfrac.__file__).parents[1])
     told = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, {package!r}); {code}"]
     assert subprocess.run(told, capture_output=True, text=True, check=True).stdout == "False True\n"
@@ -89,7 +91,12 @@ def test_consolidation():
     from there, to nothing.
     """
     sample, strain, modulus = lattice(rows=12), 1e-4, 1e6
-    water = {"bulkModulus": modulus, "viscosity": 1e-3, "wallPressures": [np.nan, np.nan, np.nan, 0.0], "poreMode": "triangle"}
+    water = {
+        "bulkModulus": modulus,
+        "viscosity": 1e-3,
+        "wallPressures": [np.nan, np.nan, np.nan, 0.0],
+        "poreMode": "triangle",
+    }
     model = kernels.SinglePhase(*sample, options=water)
     before = np.array(model.voids())
     model.move(*squeezed(sample, strain))

@@ -218,9 +218,8 @@ def test_interruptedPointsOfAnyExecutorStop(tmp_path, kind, whom):
     )
     points = [tmp_path / "sweep" / "points" / f"seed{seed}" for seed in (1, 2, 3, 4)]
     waitFor(process, lambda: all((point / "checkpoint.yade.gz").exists() for point in points[:2]))
-    (os.killpg if whom == "all" else os.kill)(
-        process.pid, signal.SIGINT
-    )  # Ctrl-C in a terminal reaches all of the group
+    # Ctrl-C in a terminal reaches all of the group
+    (os.killpg if whom == "all" else os.kill)(process.pid, signal.SIGINT)
     output, errors = process.communicate(timeout=100)
     assert process.returncode == 130 and "interrupted" in output, errors
     assert [readSummary(point).get("state") for point in points] == ["interrupted", "interrupted", None, None]

@@ -9,9 +9,9 @@ from capfrac.case import resolveCase
 from capfrac.errors import CaseError
 from capfrac.lab import biaxial, settling
 from capfrac.lab.run import LabRun
-from capfrac.run.folder import exactText
 from capfrac.scene.sediment import Sediment
 from capfrac.sweep import resolveSweep
+from capfrac.values import exactText
 from capfrac.verification import stability
 from processes import writePacking
 

@@ -9,6 +9,7 @@ from yade import O
 from capfrac import injection
 from capfrac.case import resolveCase
 from capfrac.errors import RunFolderError, SceneError
+from capfrac.run.checkpoint import saveScene
 from capfrac.run.folder import RunFolder
 
 
@@ -94,7 +95,7 @@ def test_restartTakesAwayOnlyWhatARunWrites(tmp_path):
     run = writeRun(tmp_path, "finished", caseOf(seed=2))
     (tmp_path / "notes.txt").write_text("mine")
     (tmp_path / "snapshots" / "mine").mkdir()
-    run.saveCheckpoint()
+    saveScene(run, run.checkpoint.name)
     RunFolder(tmp_path, caseOf(), restart=True)
     assert contents(tmp_path) == {"notes.txt": b"mine", "snapshots": None, "snapshots/mine": None}
 

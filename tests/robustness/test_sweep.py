@@ -103,9 +103,10 @@ def test_finishedPointsAreNotRunAgain(small, tmp_path, monkeypatch):
 
 def test_failedPointsAreRecordedAndDoNotStopTheRest(tmp_path):
     path = tmp_path / "bad.toml"
+    # wider than the box, as only the sample tells
     path.write_text(
         SMALL.replace("inlet.pores = 1\n", "").replace("cohesion.chi = [0.0, 10.0]", "inlet.pores = [99, 1]")
-    )  # wider than the box, as only the sample tells
+    )
     result = runSweep(readSweep(path), tmp_path / "sweep")
     assert (result["finished"], result["failed"]) == (1, 1)
     bad, good = rows(tmp_path / "sweep")

@@ -50,7 +50,10 @@ def fractureRuns():
 def fractureRow(summary):
     """The numbers of one run of Figure 14 that its table holds."""
     found, parameters, mode = summary["fracture"], summary["parameters"], summary["mode"]
-    rounded = lambda value, digits=1: None if value is None else round(value, digits)  # noqa: E731
+
+    def rounded(value, digits=1):
+        return None if value is None else round(value, digits)
+
     return {
         "seed": parameters["grains"]["seed"],
         "vertical [Pa]": parameters["stress"]["vertical"],

@@ -35,7 +35,6 @@ def test_equalStressesPreferNoDirection(summaries):
 
 def test_aLargerVerticalStressTurnsTheFractureUpright(summaries):
     found = fracture.orientationOfRuns(summaries["figure14_vertical"])
-    assert (
-        abs(found["mean [degrees]"] - 90) < 30
-    ), found  # a sixth of the circle on each side: a third of all directions
+    # a sixth of the circle on each side: a third of all directions
+    assert abs(found["mean [degrees]"] - 90) < 30, found
     assert found["pVertical"] < 0.01, found

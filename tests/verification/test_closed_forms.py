@@ -9,6 +9,7 @@ import pytest
 from yade import O
 
 from capfrac.errors import CaseError
+from capfrac.lab import fluid
 from capfrac.scene.sediment import Sediment
 from capfrac.verification import closedforms, handmade, lattices, units
 
@@ -62,9 +63,8 @@ def test_twoPoresDecayAtTheRateOfTheirThroats(found):
     solid = 0.5 * math.pi * (1 + 1.5**2 + 1) * 1e-6
     volumes = [3.6e-3 * 7e-3 - solid, 8.4e-3 * 7e-3 - solid]
     assert pores["volumes"] == pytest.approx(volumes, rel=1e-13) and pores["volumeError"] < 1e-13
-    assert pores["rate"] == pytest.approx(
-        conductance * KF * (1 / volumes[0] + 1 / volumes[1]), rel=1e-7
-    )  # 2e5 slices, (1/n)^1.5 at the poles
+    # 2e5 slices, (1/n)^1.5 at the poles
+    assert pores["rate"] == pytest.approx(conductance * KF * (1 / volumes[0] + 1 / volumes[1]), rel=1e-7)
     for scheme in ("implicit", "explicit"):
         # A pressure is K_f (m/V - 1): some K_f 2^-53 of round-off against 1 kPa in each of 160 steps, 1e-12 each;
         # random, but bounded by the sum.
@@ -98,7 +98,7 @@ def test_throatsInSeriesAndInParallelAreExact(found):
 
 def test_randomPackAgainstADenseSolution(loadSample):
     loadSample()
-    engine = handmade.alone(
+    engine = fluid.alone(
         conductanceLaw="constantShape", bulkModulus=math.inf, viscosity=MU, wallPressures=[NAN, NAN, 0.0, DP]
     )
     O.step()
@@ -155,8 +155,8 @@ def test_spacingCancels(lattice, walls):
         disks, box = (
             handmade.squareLattice(3, 5, radius) if lattice == "square" else handmade.triangularLattice(6, 4, radius)
         )
-        engine = handmade.fill(disks, box, bulkModulus=math.inf, viscosity=MU, wallPressures=walls)
-        handmade.advance(1.0)
+        engine = fluid.fill(disks, box, bulkModulus=math.inf, viscosity=MU, wallPressures=walls)
+        fluid.advance(1.0)
         found.append(max(engine.inflow().values()) / radius**2)
     assert found[1] == pytest.approx(found[0], rel=1e-12)
 
@@ -165,10 +165,10 @@ def test_fourSpheresAtContactHaveTheFrictionFactorOfTheirDuct():
     # Four touching circles: f Re = 6.606 (Fanning), so C~ = 8 A/(P^2 f Re) with P = 2 pi r. The engine's fit is good to
     # 0.4 %.
     disks, box = handmade.squareLattice(3, 4, 1e-3)
-    engine = handmade.fill(
+    engine = fluid.fill(
         disks, box, conductanceLaw="fourSpheres", bulkModulus=math.inf, viscosity=MU, wallPressures=[NAN, NAN, DP, 0.0]
     )
-    handmade.advance(1.0)
+    fluid.advance(1.0)
     k = MU * engine.inflow()["bottom"] * (box[3] - 2 * beside(1e-3, [1e-3])) / (box[1] * DP)
     shape = 8 * (4 - math.pi) / ((2 * math.pi) ** 2 * 6.606)
     assert k / 1e-6 == pytest.approx(shape * (4 - math.pi) ** 2 / 4, rel=4e-3)

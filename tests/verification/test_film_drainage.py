@@ -101,9 +101,8 @@ def test_poresEmptyAfterTheirVolumeOverTheFlow(trapped):
 
 def test_pressureOfACluster(trapped):
     gas = trapped(waterPressure=20)
-    assert {p for p, phase in zip(gas.cells()["pressure"], gas.cells()["phase"]) if not phase} == {
-        20
-    }  # locked: as ever
+    # locked: as ever
+    assert {p for p, phase in zip(gas.cells()["pressure"], gas.cells()["phase"]) if not phase} == {20}
     gas.filmConductance = K
     pressures = gas.cells()["pressure"]
     for group, p, _ in clusters(gas):

@@ -104,9 +104,8 @@ def test_halfTheStepGivesTheSamePoresAtTheSamePressures(pack):
     (coarse, last), (fine, lastFine) = run(1), run(4)
     assert coarse["throat"] == fine["throat"]
     rise = RATE * DT * PER_DENSITY / RESERVOIR
-    np.testing.assert_allclose(
-        coarse["gasPressure"], fine["gasPressure"], rtol=0, atol=rise
-    )  # an entry is late by a step at most
+    # an entry is late by a step at most
+    np.testing.assert_allclose(coarse["gasPressure"], fine["gasPressure"], rtol=0, atol=rise)
     assert last == pytest.approx(lastFine, rel=1e-10)  # the same gas in the same pores
 
 

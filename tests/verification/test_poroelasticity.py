@@ -53,10 +53,11 @@ def isotropic(K, G, b, M):
 def test_mandelsPeak(nu, undrained, peak, time):
     ratio = (1 - nu) / (undrained - nu)
     found = theory.mandelPeak(1 / (ratio - 1))
+    # the top is flat: 1e-3 in time is 1e-5 in pressure
     assert found == (
         pytest.approx(peak, abs=5.1e-5),
         pytest.approx(time, abs=1e-3),
-    )  # the top is flat: 1e-3 in time is 1e-5 in pressure
+    )
 
 
 def test_mandelOfAnOrthotropicMaterialIncludesTheIsotropicOne():
@@ -66,9 +67,8 @@ def test_mandelOfAnOrthotropicMaterialIncludesTheIsotropicOne():
     undrained = 0.5 * (1 - G / (K + b**2 * M))
     found = theory.mandel(isotropic(K, G, b, M), 1e-3, 10.0, 1e6)
     assert (1 + found["kappa"]) / found["kappa"] == pytest.approx((1 - nu) / (undrained - nu), rel=1e-12)
-    assert found["p0"] == pytest.approx(
-        0.5 * 1e6 * b * M / (K + b**2 * M), rel=1e-12
-    )  # Skempton's B times the mean stress
+    # Skempton's B times the mean stress
+    assert found["p0"] == pytest.approx(0.5 * 1e6 * b * M / (K + b**2 * M), rel=1e-12)
     assert found["diffusivity"] == pytest.approx(1e-12 / 1e-3 * M * (K + G) / (K + G + b**2 * M), rel=1e-12)
 
 

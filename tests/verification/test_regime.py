@@ -123,9 +123,8 @@ def test_stressOfThePorosityModel():
 
 def test_methane():
     """An ideal gas where it is thin; by the equation of state itself elsewhere."""
-    assert depth.methaneDensity(1e3, 280.0) == pytest.approx(
-        1e3 * 0.016043 / (8.314 * 280), rel=1e-4
-    )  # second virial coefficient: -50 cm^3/mol, so 2e-5 at 1 kPa
+    # second virial coefficient: -50 cm^3/mol, so 2e-5 at 1 kPa
+    assert depth.methaneDensity(1e3, 280.0) == pytest.approx(1e3 * 0.016043 / (8.314 * 280), rel=1e-4)
     p, t = 8.5e6, 280.0
     volume = 0.016043 / float(depth.methaneDensity(p, t))
     kappa = 0.37464 + 1.54226 * 0.011 - 0.26992 * 0.011**2

@@ -66,9 +66,8 @@ def test_inflowIsOutflowInSteadyState(loadSample):
     engine = alone(bulkModulus=math.inf, wallPressures=TOP_TO_BOTTOM)
     O.step()
     inflow = engine.inflow()
-    assert inflow["top"] > 0 and inflow["top"] + inflow["bottom"] == pytest.approx(
-        0, abs=1e-11 * inflow["top"]
-    )  # the solver's 1e-12
+    # the solver's 1e-12
+    assert inflow["top"] > 0 and inflow["top"] + inflow["bottom"] == pytest.approx(0, abs=1e-11 * inflow["top"])
     pressures = engine.pores()["pressure"]
     assert min(pressures) == 0 and max(pressures) == 1000  # maximum principle: no pore outside of its boundaries
 
@@ -98,9 +97,8 @@ def test_hydrostaticPressureAndBuoyancy(loadSample):
     np.testing.assert_allclose(p, 9810 * (np.average(y[at], weights=volume[at]) - y), atol=9810 * 4e-3)
     lower = y < 0.5 * (y.min() + y.max())
     slope = np.polyfit(y[lower], p[lower], 1)[0]
-    assert slope == pytest.approx(
-        -9810, rel=5e-3
-    )  # far from the top little flows: it circulates over a grain or two there
+    # far from the top little flows: it circulates over a grain or two there
+    assert slope == pytest.approx(-9810, rel=5e-3)
     # Archimedes, with the fluid quite at rest: what the grains displace, less what it does not press on where they rest
     # on the floor: contacts that overlap by 2e-3 r have chords of 0.1 r, some 5 % of the floor.
     engine = alone(bulkModulus=math.inf, pointPressures=[(0.01, 0.01, 0.0)], fluidDensity=1000.0, gravity=(0, -9.81))

@@ -87,9 +87,8 @@ def test_latticeOpensLikeAnEllipse():
             for i in range(first, first + broken)
         )
         equivalent = math.sqrt(area / (2 * math.pi))  # half-length of the crack with that area
-        assert (
-            broken / 2 < equivalent < (broken + 1) / 2 * 1.02
-        )  # 2 %: the width of the box, sec(pi/10)^(1/2) = 1.03 on K
+        # 2 %: the width of the box, sec(pi/10)^(1/2) = 1.03 on K
+        assert broken / 2 < equivalent < (broken + 1) / 2 * 1.02
 
 
 def test_latticeConcentratesAsTheRootOfTheLength():
@@ -108,9 +107,8 @@ def test_latticeConcentratesAsTheRootOfTheLength():
 
 
 def test_finiteWidth():
-    assert finiteWidth(1e-9, 1.0) == pytest.approx(1) and finiteWidth(1.0, 4.0) == pytest.approx(
-        2**0.125
-    )  # sec(pi/4) = sqrt 2
+    # sec(pi/4) = sqrt 2
+    assert finiteWidth(1e-9, 1.0) == pytest.approx(1) and finiteWidth(1.0, 4.0) == pytest.approx(2**0.125)
 
 
 def test_fitRecoversWhatItWasMadeFrom():

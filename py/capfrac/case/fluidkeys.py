@@ -2,6 +2,7 @@
 """Keys of a case: the fluids; the sections [gas], [water]."""
 
 from capfrac.case.schema import Key, notNegative, positive
+from capfrac.constants import ATMOSPHERE, METHANE_MOLAR_MASS, ROOM_TEMPERATURE
 
 #: Condition of what belongs to water that is solved for.
 SOLVED = "water.flow = 'solved'"
@@ -37,9 +38,21 @@ FLUID_KEYS = (
         choices=("incompressible", "ideal", "tabulated"),
     ),
     positive(
-        "gas", "molarMass", "kg/mol", 0.016043, "Molar mass of the gas; methane.", usedWith="gas.law != 'tabulated'"
+        "gas",
+        "molarMass",
+        "kg/mol",
+        METHANE_MOLAR_MASS,
+        "Molar mass of the gas; methane.",
+        usedWith="gas.law != 'tabulated'",
     ),
-    positive("gas", "temperature", "K", 293.15, "Temperature of the gas, constant.", usedWith="gas.law != 'tabulated'"),
+    positive(
+        "gas",
+        "temperature",
+        "K",
+        ROOM_TEMPERATURE,
+        "Temperature of the gas, constant.",
+        usedWith="gas.law != 'tabulated'",
+    ),
     positive(
         "gas",
         "deviation",
@@ -57,7 +70,7 @@ FLUID_KEYS = (
         "Pairs [absolute pressure, density] of the tabulated law, both ascending, at least two.",
         needs="gas.law = 'tabulated'",
     ),
-    Key("gas", "datum", float, "Pa", 101325.0, "Absolute pressure of the water: pressures of a case count from it."),
+    Key("gas", "datum", float, "Pa", ATMOSPHERE, "Absolute pressure of the water: pressures of a case count from it."),
     Key(
         "gas",
         "imbibition",

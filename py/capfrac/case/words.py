@@ -79,7 +79,7 @@ KEYS = {**GAS, **DRAINED, **VISCOUS, **SEDIMENT, **_OTHERS}
 _UNMISTAKABLE = "|".join(name for name in KEYS if not name.islower())
 _ENGLISH = "|".join(name for name in KEYS if name.islower())
 _NAME = re.compile(
-    rf"(?<![\w.])(?:\w+(?:Engine|Mat)\.)?" rf"(?:({_UNMISTAKABLE})(?!\w)|({_ENGLISH})(?= (?:\[[^\]]*\] )?= ))"
+    rf"(?<![\w.])(?:\w+(?:Engine|Mat)\.)?(?:({_UNMISTAKABLE})(?!\w)|({_ENGLISH})(?= (?:\[[^\]]*\] )?= ))"
 )
 
 

@@ -7,16 +7,8 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 
 from capfrac.errors import CaseError
+from capfrac.units import UNITS, USUAL
 
-#: Units that are converted: SI unit of a column -> unit in a file -> factor, a text so that it is exact.
-UNITS = {
-    "m": {"m": "1", "dm": "1e-1", "cm": "1e-2", "mm": "1e-3", "um": "1e-6", "µm": "1e-6", "μm": "1e-6", "nm": "1e-9"},
-    "Pa": {"Pa": "1", "hPa": "1e2", "kPa": "1e3", "MPa": "1e6", "GPa": "1e9", "mbar": "1e2", "bar": "1e5"},
-    "-": {"-": "1", "1": "1", "%": "1e-2"},
-    "%": {"%": "1", "-": "1e2", "1": "1e2"},
-}
-#: A unit that files often have instead of the SI unit; for examples in messages.
-_USUAL = {"m": "mm", "Pa": "kPa", "-": "%", "%": "-"}
 #: Between fields, in the order in which they are tried; None: blanks.
 _SEPARATORS = (";", "\t", ",", None)
 _NUMBERS = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([ed][+-]?[0-9]+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
@@ -177,4 +169,4 @@ def _described(columns):
 
 
 def _example(columns):
-    return ", ".join(f"'{column.name} [{_USUAL[column.unit]}]'" for column in columns if not column.optional)
+    return ", ".join(f"'{column.name} [{USUAL[column.unit]}]'" for column in columns if not column.optional)

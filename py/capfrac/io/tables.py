@@ -26,7 +26,9 @@ from pathlib import Path
 import numpy as np
 
 from capfrac.errors import CaseError
-from capfrac.io.tableheader import Column, readHeader, split  # noqa: F401 (Column is part of this module)
+from capfrac.io.tableheader import Column, readHeader, split
+
+__all__ = ["Column", "Table", "readTable"]
 
 _NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eEdD][+-]?[0-9]+)?")
 #: A line up to the comment in it: # behind a blank, outside of quotes.

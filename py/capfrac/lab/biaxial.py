@@ -16,9 +16,8 @@ from capfrac.errors import CaseError
 from capfrac.lab.box import INERTIAL_NUMBER, Box
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
-from capfrac.run.folder import exactText
 from capfrac.scene import sediment
-from capfrac.values import isNotNegative, isPositive, shown
+from capfrac.values import exactText, isNotNegative, isPositive, shown
 
 #: Share of the largest deviator up to which the moduli are taken [-]: before grains slide on a large scale.
 ELASTIC_SHARE = 0.25
@@ -29,7 +28,7 @@ def biaxialTest(sample, stress, strain=0.08, bondStrength=0.0, inertialNumber=IN
 
     ``bondStrength``: sigma_c = tau_c of Eq. 5 [Pa], bonds set at the isotropic state; 0: none. ``packing``
     (x, y, r) [m]: grains to begin with, instead of settling new ones. The dict holds ``table``
-    (columns of :data:`box.COLUMNS`), ``peak`` and ``residual`` (vertical stress [Pa]), ``strainAtPeak``,
+    (columns of :data:`capfrac.lab.box.COLUMNS`), ``peak`` and ``residual`` (vertical stress [Pa]), ``strainAtPeak``,
     ``youngModulus`` [Pa], ``poissonRatio``, ``bonds`` and ``brokenBonds``, ``quasiStatic``. Raises :class:`CaseError`
     for impossible values.
     """

@@ -20,6 +20,7 @@ import math
 import numpy as np
 
 from capfrac.errors import CaseError, SampleError
+from capfrac.lab.measures import countBonds, loadBearing, trueVoidRatio
 from capfrac.lab.run import LabRun
 from capfrac.scene import sediment
 from capfrac.values import asFloat, isPositive, shown
@@ -32,12 +33,16 @@ MODES = {
     "isotropic": "driven by stress: all walls bear the same stress",
     "k0": "driven by stress: the top wall bears it, side walls are fixed (no lateral strain)",
 }
+
 STRAIN_DRIVEN = ("uniaxial", "biaxial", "meanStress")
+
 #: Inertial number I = strain rate * d * sqrt(rho / sigma) of a test [-]. Below 1e-3 granular matter counts as
 #: quasi-static (GDR MiDi, Eur. Phys. J. E 14 (2004) 341).
 INERTIAL_NUMBER = 5e-4
+
 #: Wall stresses are this near their targets (relative) before a test goes on.
 SERVO_TOLERANCE = 0.005
+
 #: Columns of a test's table.
 COLUMNS = (
     "strain [-]",
@@ -90,14 +95,14 @@ class Box:
 
     def setReference(self):
         """Strains count from here; rows begin anew."""
-        loaded = _loadBearing()
+        loaded = loadBearing()
         if loaded < 3:
             raise SampleError(
                 f"the sample bears no load: {loaded} of {len(self._radii())} grains have two contacts or more (a sample"
                 " of rattlers only)"
             )
         width, height = self.lengths()
-        self.run.data["reference"] = {"width": width, "height": height, "bonds": _countBonds()}
+        self.run.data["reference"] = {"width": width, "height": height, "bonds": countBonds()}
         self.run.data.pop("rows", None)
 
     def mode(self, name, stressH=None, meanStress=None):
@@ -259,7 +264,7 @@ class Box:
             utils.unbalancedForce(),
             rate * 2 * np.mean(self._radii()) * math.sqrt(self.sample.density / mean),
             self._servoError(),
-            reference["bonds"] - _countBonds(),
+            reference["bonds"] - countBonds(),
             O.iter,
             branch,
         )
@@ -283,36 +288,3 @@ class Box:
                 ("servoError", "servoError [-]"),
             )
         }
-
-
-def trueVoidRatio(boxArea):
-    """Void over solid of the current scene with every overlap counted once [-]; NaN where the network cannot be
-    built.
-    """
-    from yade.wrapper import PoreNetworkEngine
-
-    try:
-        network = PoreNetworkEngine(maxSizeRatio=1e3)
-        network.prepare()
-    except RuntimeError:
-        return math.nan
-    void = network.volumes()["void"]
-    return void / (boxArea - void)
-
-
-def _loadBearing():
-    from yade import O
-
-    contacts = {}
-    for contact in O.interactions:
-        if contact.isReal:
-            for i in (contact.id1, contact.id2):
-                contacts[i] = contacts.get(i, 0) + 1
-    grains = {body.id for body in sediment.grainBodies()}
-    return sum(1 for i, n in contacts.items() if i in grains and n >= 2)
-
-
-def _countBonds():
-    from yade import O
-
-    return sum(1 for contact in O.interactions if contact.isReal and not contact.phys.cohesionBroken)

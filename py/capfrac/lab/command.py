@@ -8,13 +8,14 @@ from capfrac import environment
 from capfrac.case import schema
 from capfrac.errors import CaseError
 from capfrac.io import namedfiles, tomlfiles
-from capfrac.lab import parameters, reports
+from capfrac.lab import fluid_reports, parameters, reports
 from capfrac.lab.run import LabRun
 from capfrac.run.folder import readSummary
+from capfrac.run.progress import Progress
 from capfrac.scene.packing import BOULDER
-from capfrac.verification import reports as waterReports
+from capfrac.verification import reports as exact
 
-_REPORTS = {**reports.REPORTS, **waterReports.REPORTS}
+_REPORTS = {**reports.REPORTS, **fluid_reports.REPORTS, **exact.REPORTS}
 #: What each test is, in a line.
 TITLES = {
     "settle": "sedimentation: pictures of it and its time step (Figures 7 and 8)",
@@ -131,39 +132,18 @@ def main(arguments):
             problems += problem.problems
     values, warnings = parameters.resolveTelling(test, raw, arguments.file or "arguments", problems)
     folder = arguments.output or f"runs/lab-{test}"
+    progress = Progress(arguments.quiet)
     try:
-        results = runTest(
-            test, values, folder, arguments.restart, _reporter(arguments.quiet), base, arguments.threads, warnings
-        )
+        results = runTest(test, values, folder, arguments.restart, progress.report, base, arguments.threads, warnings)
     except KeyboardInterrupt:
         print(f"\ninterrupted; the same command takes the test up again from {folder}", file=sys.stderr)
         return 130
-    if sys.stderr.isatty() and not arguments.quiet:
-        sys.stderr.write("\r\033[K")
+    progress.clear()
     print(asText(test, results))
     for text in readSummary(Path(folder)).get("warnings", ()):
         print(f"warning: {text}")
     print(f"run folder: {folder}")
     return 0
-
-
-def _reporter(quiet):
-    """Progress on one line of a terminal; in a log a line for each new beginning."""
-    last = [""]
-
-    def report(text):
-        if quiet:
-            return
-        if text.startswith("warning:"):  # stays on the terminal
-            sys.stderr.write(("\r\033[K" if sys.stderr.isatty() else "") + text + "\n")
-        elif sys.stderr.isatty():
-            sys.stderr.write(f"\r\033[K{text[:150]}")
-        elif text.split(":")[0] != last[0]:
-            sys.stderr.write(f"{text}\n")
-        last[0] = text.split(":")[0]
-        sys.stderr.flush()
-
-    return report
 
 
 def asText(test, results):

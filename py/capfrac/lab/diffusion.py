@@ -34,7 +34,7 @@ from capfrac.lab.profiles import HALF_TIME, PROFILE_TIMES, profileAt, profileErr
 from capfrac.lab.run import LabRun
 from capfrac.lab.transient import steadyFlow, stepEnds, transient
 from capfrac.scene import sediment
-from capfrac.verification.handmade import requirePositive
+from capfrac.values import requirePositive
 
 
 def diffusion(
@@ -64,10 +64,10 @@ def diffusion(
     ``grains`` and ``pores``. Of the storage: ``characteristicTime`` T_c [s], ``storage`` c_v [1/Pa],
     ``storageTimesBulkModulus``, ``storageOfNetwork`` (c_v from the sum over the pores) and ``storageAtHalf`` (from the
     time of half the outflow) [1/Pa]. Of the diffusion: ``rates`` (tau, in- and outflow over the steady flow, and Eqs.
-    21, 22), ``rateErrors`` (see :func:`profiles.rateErrors`), ``profiles`` (:func:`profiles.profileAt` at each of
-    :data:`profiles.PROFILE_TIMES`), ``profileErrors``, ``layerErrors``, ``scatterErrors`` and ``placeErrors`` (see
-    :func:`profiles.profileErrors`), ``ledger`` (relative error of the fluid's mass), ``convergence`` and ``schemes``
-    (of :func:`schemes.convergence` and :func:`schemes.compareSchemes`, or None).
+    21, 22), ``rateErrors`` (see :func:`capfrac.lab.profiles.rateErrors`), ``profiles`` (:func:`profiles.profileAt` at
+    each of :data:`capfrac.lab.profiles.PROFILE_TIMES`), ``profileErrors``, ``layerErrors``, ``scatterErrors`` and
+    ``placeErrors`` (see :func:`capfrac.lab.profiles.profileErrors`), ``ledger`` (relative error of the fluid's mass),
+    ``convergence`` and ``schemes`` (of :func:`schemes.convergence` and :func:`schemes.compareSchemes`, or None).
     """
     run = run or LabRun("diffusion", {})
     requirePositive(

@@ -16,19 +16,19 @@ filled.
 
 import numpy as np
 
+from capfrac.constants import GAS_CONSTANT, METHANE_MOLAR_MASS, ROOM_TEMPERATURE
 from capfrac.errors import CaseError
 from capfrac.lab.compaction import prepareSample
 from capfrac.lab.run import LabRun
 from capfrac.results import snapshot
 from capfrac.scene import sediment
-from capfrac.verification.handmade import requirePositive
+from capfrac.values import requirePositive
 
 #: The corners: name -> (Ca, M). The first three are those that an independent lattice-Boltzmann code documents as its
 #: examples.
 CORNERS = {"stable displacement": (1e-3, 30.0), "viscous fingering": (1e-3, 0.01), "capillary fingering": (1e-5, 30.0)}
 #: Absolute pressure of the gas [Pa]: far above the pressures that drive it, so that it keeps its volume.
 DATUM = 1e9
-_GAS_CONSTANT, _TEMPERATURE, _MOLAR_MASS = 8.314462618, 293.15, 0.016043
 
 
 def displacement(sample, stress=10e3, tension=0.05, viscosity=1e-3, steps=300, run=None):
@@ -77,7 +77,8 @@ def _corner(run, name, capillaryNumber, viscosityRatio, tension, viscosity, step
 
 
 def startGas(tension, viscosity, gasViscosity, control="rate", pressure=0.0, **attributes):
-    """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. The inlet is the floor, the outlet the top; returns it.
+    """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. The inlet is the floor,
+    the outlet the top; returns it.
     """
     from yade import O
     from yade.wrapper import ViscousInvasionEngine
@@ -88,8 +89,8 @@ def startGas(tension, viscosity, gasViscosity, control="rate", pressure=0.0, **a
             **dict(
                 label="gas",
                 gasLaw="ideal",
-                gasTemperature=_TEMPERATURE,
-                gasMolarMass=_MOLAR_MASS,
+                gasTemperature=ROOM_TEMPERATURE,
+                gasMolarMass=METHANE_MOLAR_MASS,
                 pressureDatum=DATUM,
                 gasControl=control,
                 gasPressure=pressure,
@@ -112,7 +113,7 @@ def startGas(tension, viscosity, gasViscosity, control="rate", pressure=0.0, **a
 
 def densityAt(pressure):
     """Density [kg/m^3] of the gas at a gauge pressure [Pa]."""
-    return (DATUM + pressure) * _MOLAR_MASS / (_GAS_CONSTANT * _TEMPERATURE)
+    return (DATUM + pressure) * METHANE_MOLAR_MASS / (GAS_CONSTANT * ROOM_TEMPERATURE)
 
 
 def measure(gas, columns=16):

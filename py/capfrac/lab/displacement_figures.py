@@ -2,10 +2,10 @@
 """Pictures of viscous displacement."""
 
 import numpy as np
-from matplotlib.collections import EllipseCollection, PolyCollection
 
-from capfrac.plot.figures import COLOURS, newFigure, saveFigure
-from capfrac.results.snapshot import GAS
+from capfrac.plot.painter import COLOURS, drawCells, drawDisks
+from capfrac.plot.sheet import newFigure, saveFigure
+from capfrac.results.moment import GAS
 
 
 def drawDisplacement(found, snapshots, path):
@@ -37,27 +37,9 @@ def _power(value):
 
 def _drawGas(axes, s):
     corners = [s.polygonCorners[a:b] for a, b in zip(s.polygonOffsets, s.polygonOffsets[1:])]
-    axes.add_collection(
-        PolyCollection(
-            [c for c, phase in zip(corners, s.cellPhase) if phase == GAS],
-            facecolor=COLOURS["gas"],
-            edgecolor=COLOURS["gas"],
-            linewidth=0.3,
-        )
-    )
-    axes.add_collection(
-        EllipseCollection(
-            2 * s.r,
-            2 * s.r,
-            np.zeros(len(s.r)),
-            units="xy",
-            offsets=np.column_stack([s.x, s.y]),
-            offset_transform=axes.transData,
-            facecolor=COLOURS["grain"],
-            edgecolor=COLOURS["outline"],
-            linewidth=0.2,
-        )
-    )
+    gas = [c for c, phase in zip(corners, s.cellPhase) if phase == GAS]
+    drawCells(axes, gas, COLOURS["gas"], linewidth=0.3)
+    drawDisks(axes, np.column_stack([s.x, s.y]), s.r, COLOURS["grain"], COLOURS["outline"], 0.2, zorder=1)
     left, right, bottom, top = s.box
     axes.plot([left, right], [bottom, bottom], color=COLOURS["inlet"], linewidth=3, solid_capstyle="butt")
     axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal", xticks=[], yticks=[])

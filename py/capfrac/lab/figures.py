@@ -10,7 +10,9 @@ import numpy as np
 
 from capfrac.lab import hydrate_ridge
 from capfrac.plot import figures
-from capfrac.plot.figures import COLOURS, newFigure, quantity, saveFigure
+from capfrac.plot.painter import COLOURS
+from capfrac.plot.sheet import newFigure, saveFigure
+from capfrac.units import prefix, quantity
 
 #: One colour for each curve of a picture, then over again.
 CYCLE = (
@@ -21,6 +23,7 @@ CYCLE = (
     COLOURS["gas"],
     COLOURS["outline"],
 )
+
 BAND = "#e4e0d2"
 
 
@@ -33,8 +36,8 @@ def tidy(figure):
 
 
 def pressureUnit(highest):
-    """Power of ten and unit for axes up to ``highest`` [Pa]."""
-    return max((p, u) for p, u in ((0, "Pa"), (3, "kPa"), (6, "MPa")) if p == 0 or highest >= 10.0**p)
+    """Scale and unit for axes up to ``highest`` [Pa]: Pa, kPa or MPa."""
+    return prefix(highest, "Pa", low=0)
 
 
 def drawSettling(snapshots, path):
@@ -47,19 +50,18 @@ def drawTimeStep(result, path):
     """The time step while a sample settles (Figure 8), and the share of the grains that touch, against time."""
     table = result["table"]
     time = np.array(table["time [s]"])
-    power = 3 * math.floor(math.log10(time[-1]) / 3)
-    unit = quantity(10.0**power, "s").split()[1]
+    second, unit = prefix(time[-1], "s")
     with newFigure((5.4, 3.2)) as figure:
         axes = figure.add_axes([0.14, 0.16, 0.7, 0.76])
         axes.plot(
-            time / 10.0**power,
+            time / second,
             np.array(table["timeStep [s]"]) / result["freeFall"],
             color=COLOURS["dot"],
             linewidth=1.4,
         )
-        axes.axvline(result["settlingBegins"] / 10.0**power, color="0.45", linewidth=0.9, linestyle=(0, (4, 3)))
+        axes.axvline(result["settlingBegins"] / second, color="0.45", linewidth=0.9, linestyle=(0, (4, 3)))
         axes.text(
-            result["settlingBegins"] / 10.0**power,
+            result["settlingBegins"] / second,
             1.02,
             " free fall $\\leftarrow$ | $\\rightarrow$ settling",
             ha="center",
@@ -71,11 +73,11 @@ def drawTimeStep(result, path):
             xlabel=f"time [{unit}]",
             ylabel=f"time step / {quantity(result['freeFall'], 's')}",
             ylim=(0, 1.1),
-            xlim=(0, time[-1] / 10.0**power),
+            xlim=(0, time[-1] / second),
         )
         share = axes.twinx()
         share.plot(
-            time / 10.0**power,
+            time / second,
             table["shareTouching [-]"],
             color=COLOURS["compression"],
             linewidth=1.1,
@@ -122,14 +124,14 @@ def drawCompaction(found, path, title=None):
     """Stress against strain, and void ratio against log stress, of a compaction (a dict) with its loops (Figure 10)."""
     table = found["table"]
     strain, stress, void = (np.array(table[name]) for name in ("strain [-]", "stressV [Pa]", "voidRatioUsed [-]"))
-    power, unit = pressureUnit(stress.max())
+    pascal, unit = pressureUnit(stress.max())
     with newFigure((7.6, 3.3)) as figure:
         curve, log = figure.subplots(
             1,
             2,
             gridspec_kw={"left": 0.09, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.28},
         )
-        curve.plot(100 * strain, stress / 10.0**power, color=COLOURS["dot"], linewidth=1.2)
+        curve.plot(100 * strain, stress / pascal, color=COLOURS["dot"], linewidth=1.2)
         curve.set(xlabel="vertical strain [%]", ylabel=f"vertical stress [{unit}]", xlim=(0, None), ylim=(0, None))
         log.semilogx(stress, void, color=COLOURS["dot"], linewidth=1.2)
         log.set(xlabel="vertical stress [Pa]", ylabel="void ratio")
@@ -162,7 +164,7 @@ def drawHydrateRidge(result, path):
     (Figure 10).
     """
     highest = max(max(found["table"]["stressV [Pa]"]) for found in result["compactions"].values())
-    power, unit = pressureUnit(highest)
+    pascal, unit = pressureUnit(highest)
     with newFigure((9.6, 3.7)) as figure:
         curve, slope, unloading = figure.subplots(
             1, 3, gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.3, "top": 0.95, "wspace": 0.3}
@@ -171,7 +173,7 @@ def drawHydrateRidge(result, path):
             label = f"$k_n$ = {result['stiffness'][name]:.3g} N/m ($C_c$ = {result['Cc'][name]:.3f})"
             curve.plot(
                 100 * np.array(found["table"]["strain [-]"]),
-                np.array(found["table"]["stressV [Pa]"]) / 10.0**power,
+                np.array(found["table"]["stressV [Pa]"]) / pascal,
                 color=colour,
                 linewidth=1.1,
                 label=label,
@@ -190,7 +192,7 @@ def drawHydrateRidge(result, path):
             lab = result["laboratory"]
             curve.plot(
                 100 * np.array(lab["strain"]),
-                np.array(lab["stress"]) / 10.0**power,
+                np.array(lab["stress"]) / pascal,
                 color="black",
                 linestyle="none",
                 marker="s",
@@ -218,160 +220,5 @@ def drawHydrateRidge(result, path):
         curve.set(xlabel="vertical strain [%]", ylabel=f"vertical stress [{unit}]", xlim=(0, None), ylim=(0, None))
         for axes in (curve, slope, unloading):
             axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(-0.08, -0.16))
-        tidy(figure)
-        saveFigure(figure, path)
-
-
-def drawBiaxial(result, path, title=None):
-    """Deviator and volume against strain for each confining stress, and the Mohr circles at the peaks with their
-    envelope.
-    """
-    tests = result["tests"]
-    power, unit = pressureUnit(max(test["peak"] for test in tests))
-    with newFigure((9.6, 3.3)) as figure:
-        deviator, volume, mohr = figure.subplots(
-            1,
-            3,
-            gridspec_kw={"left": 0.065, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.3},
-        )
-        for colour, test in zip(CYCLE, tests):
-            table = test["table"]
-            axial, lateral = np.array(table["strain [-]"]), np.array(table["lateralStrain [-]"])
-            vertical, horizontal = np.array(table["stressV [Pa]"]), np.array(table["stressH [Pa]"])
-            deviator.plot(
-                100 * axial,
-                (vertical - horizontal) / 10.0**power,
-                color=colour,
-                linewidth=1.1,
-                label=f"$\\sigma_H$ = {quantity(test['stress'], 'Pa')}",
-            )
-            volume.plot(100 * axial, 100 * (axial + lateral), color=colour, linewidth=1.1)
-            _drawCircle(mohr, test["stress"] / 10.0**power, test["peak"] / 10.0**power, colour)
-        deviator.set(xlabel="vertical strain [%]", ylabel=f"$\\sigma_V - \\sigma_H$ [{unit}]", xlim=(0, None))
-        deviator.legend(fontsize=7, frameon=False)
-        volume.set(xlabel="vertical strain [%]", ylabel="volumetric strain [%] (compression +)", xlim=(0, None))
-        _drawEnvelope(mohr, result, max(test["peak"] for test in tests) / 10.0**power, power, unit)
-        tidy(figure)
-        if title:
-            figure.suptitle(title, fontsize=10, y=0.985)
-        saveFigure(figure, path)
-
-
-def _drawCircle(axes, low, high, colour):
-    angle = np.linspace(0, math.pi, 181)
-    axes.plot(
-        0.5 * (low + high) + 0.5 * (high - low) * np.cos(angle),
-        0.5 * (high - low) * np.sin(angle),
-        color=colour,
-        linewidth=1.1,
-    )
-
-
-def _drawEnvelope(axes, result, highest, power, unit):
-    tangent = math.tan(math.radians(result["frictionAngle"]))
-    cohesion = result["cohesion"] / 10.0**power
-    start = -cohesion / tangent if cohesion > 0 else 0.0
-    ends = np.array([max(start, -0.3 * highest), highest])
-    axes.plot(ends, cohesion + tangent * ends, color="black", linewidth=1, linestyle=(0, (4, 2)))
-    axes.set(
-        xlabel=f"normal stress [{unit}]",
-        ylabel=f"shear stress [{unit}]",
-        ylim=(0, 0.85 * highest),
-        xlim=(min(0.0, ends[0]), 1.05 * highest),
-    )
-    axes.set_aspect("equal", adjustable="box")
-    axes.text(
-        0.03,
-        0.97,
-        f"$\\varphi$ = {result['frictionAngle']:.1f}°\n$c$ = {quantity(result['cohesion'], 'Pa')}",
-        transform=axes.transAxes,
-        va="top",
-        fontsize=9,
-    )
-
-
-def drawPath(rows, path, title=None):
-    """A stress path: stress against strain, and deviator against mean stress."""
-    axial, lateral, vertical, horizontal = (
-        np.array(rows[name]) for name in ("strain [-]", "lateralStrain [-]", "stressV [Pa]", "stressH [Pa]")
-    )
-    power, unit = pressureUnit(max(vertical.max(), horizontal.max()))
-    with newFigure((7.6, 3.3)) as figure:
-        curve, invariants = figure.subplots(
-            1,
-            2,
-            gridspec_kw={"left": 0.09, "right": 0.985, "bottom": 0.155, "top": 0.9 if title else 0.96, "wspace": 0.28},
-        )
-        curve.plot(
-            100 * axial,
-            vertical / 10.0**power,
-            color=COLOURS["dot"],
-            marker=".",
-            label="$\\sigma_V$ against $\\varepsilon_V$",
-        )
-        curve.plot(
-            100 * lateral,
-            horizontal / 10.0**power,
-            color=COLOURS["compression"],
-            marker=".",
-            label="$\\sigma_H$ against $\\varepsilon_H$",
-        )
-        curve.set(xlabel="strain [%]", ylabel=f"stress [{unit}]", ylim=(0, None))
-        curve.legend(fontsize=8, frameon=False)
-        invariants.plot(
-            0.5 * (vertical + horizontal) / 10.0**power,
-            (vertical - horizontal) / 10.0**power,
-            color=COLOURS["dot"],
-            marker=".",
-        )
-        invariants.set(xlabel=f"mean stress [{unit}]", ylabel=f"$\\sigma_V - \\sigma_H$ [{unit}]", xlim=(0, None))
-        tidy(figure)
-        if title:
-            figure.suptitle(title, fontsize=10, y=0.985)
-        saveFigure(figure, path)
-
-
-_NAMES = {"youngModulus": "$E$", "poissonRatio": "$\\nu$", "frictionAngle": "$\\varphi$", "cohesion": "$c$"}
-
-
-def drawSizes(result, path):
-    """Each macroscopic property over its mean, against the smallest radius."""
-    table = result["table"]
-    with newFigure((5.2, 3.2)) as figure:
-        axes = figure.add_axes([0.13, 0.16, 0.84, 0.78])
-        for colour, (name, label) in zip(CYCLE, _NAMES.items()):
-            values = np.array(table[name])
-            axes.semilogx(
-                table["rMin [m]"],
-                values / values.mean(),
-                color=colour,
-                marker="o",
-                markersize=4,
-                linewidth=1,
-                label=label,
-            )
-        axes.axhspan(0.975, 1.025, color=BAND, zorder=0, label="5 %")
-        axes.set(xlabel="smallest radius [m]", ylabel="property / its mean", ylim=(0.9, 1.1))
-        axes.legend(fontsize=8, frameon=False, ncol=5)
-        tidy(figure)
-        saveFigure(figure, path)
-
-
-def drawSensitivity(result, path):
-    """Exponents of the macroscopic properties (rows of bars) with respect to each microscopic parameter."""
-    parameters = list(result["exponent"])
-    with newFigure((6.4, 3.4)) as figure:
-        axes = figure.add_axes([0.33, 0.15, 0.65, 0.75])
-        height = 0.8 / len(_NAMES)
-        for number, (name, label) in enumerate(_NAMES.items()):
-            values = [result["exponent"][parameter][name] for parameter in parameters]
-            axes.barh(
-                np.arange(len(parameters)) + (number - 1.5) * height, values, height, color=CYCLE[number], label=label
-            )
-        axes.set(xlabel="exponent: property ~ parameter$^n$", yticks=range(len(parameters)))
-        axes.set_yticklabels(parameters, fontsize=8)
-        axes.invert_yaxis()
-        axes.axvline(0, color="0.3", linewidth=0.8)
-        axes.legend(fontsize=8, frameon=False, ncol=4, loc="lower center", bbox_to_anchor=(0.5, 1.0))
         tidy(figure)
         saveFigure(figure, path)

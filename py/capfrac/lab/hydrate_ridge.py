@@ -18,11 +18,11 @@ import numpy as np
 
 from capfrac.errors import CaseError
 from capfrac.io.tables import Column, readTable
-from capfrac.lab import compaction
+from capfrac.lab import compaction, stiffness
 from capfrac.lab.box import INERTIAL_NUMBER
 from capfrac.lab.run import LabRun
-from capfrac.run.folder import exactText
 from capfrac.scene import sediment
+from capfrac.values import exactText
 
 #: Reported indices [-]: smallest, largest, average.
 CC_REPORTED = (0.340, 0.704, 0.568)
@@ -61,7 +61,7 @@ def hydrateRidge(
         start = fits["average"]["normalStiffness"] * CC_REPORTED[2] / index if fits else sample.normalStiffness
         ratio = sample.shearStiffness / sample.normalStiffness
         run.report(f"searching k_n for C_c = {index:g}")
-        fits[name] = compaction.findStiffness(
+        fits[name] = stiffness.findStiffness(
             sediment.changed(sample, normalStiffness=start, shearStiffness=ratio * start),
             index,
             fitFrom,

@@ -14,11 +14,12 @@ from capfrac.lab import (
     hydrate_ridge,
     properties,
     settling,
+    stiffness,
+    strength_figures,
 )
 from capfrac.lab.box import STRAIN_DRIVEN, Box
 from capfrac.results import snapshot
-from capfrac.run.folder import exactText
-from capfrac.verification import contacts, percolation, percolation_figures, toughness
+from capfrac.values import exactText
 
 
 def _settle(sample, own, run, base):
@@ -55,7 +56,7 @@ def _withoutTable(found):
 
 
 def _fit(sample, own, run, base):
-    found = compaction.findStiffness(sample, run=run, **own)
+    found = stiffness.findStiffness(sample, run=run, **own)
     _keepCompaction(run, "compaction", found["compaction"], f"$k_n$ = {found['normalStiffness']:.4g} N/m")
     return {**found, "compaction": _withoutTable(found["compaction"])}
 
@@ -91,7 +92,7 @@ def _path(sample, own, run, base):
         run.stage("path", lambda: box.stressTo(own["stresses"]))
     rows = box.rows
     run.table("path", rows)
-    run.picture("path", lambda path: figures.drawPath(rows, path, own["mode"]))
+    run.picture("path", lambda path: strength_figures.drawPath(rows, path, own["mode"]))
     return {
         "mode": own["mode"],
         "last": {name: values[-1] for name, values in rows.items()},
@@ -104,43 +105,21 @@ def _biaxial(sample, own, run, base):
     found = biaxial.biaxial(sample, run=run, **own)
     for test in found["tests"]:
         run.table(f"biaxial-{exactText(test['stress'], 'g')}Pa", test["table"])
-    run.picture("biaxial", lambda path: figures.drawBiaxial(found, path))
+    run.picture("biaxial", lambda path: strength_figures.drawBiaxial(found, path))
     return {**found, "tests": [_withoutTable(test) for test in found["tests"]]}
 
 
 def _sizes(sample, own, run, base):
     found = properties.sizes(sample, run=run, **own)
     run.table("sizes", found["table"])
-    run.picture("sizes", lambda path: figures.drawSizes(found, path))
+    run.picture("sizes", lambda path: strength_figures.drawSizes(found, path))
     return found
 
 
 def _sensitivity(sample, own, run, base):
     found = properties.sensitivity(sample, run=run, **own)
     run.table("sensitivity", found["table"])
-    run.picture("sensitivity", lambda path: figures.drawSensitivity(found, path))
-    return found
-
-
-def _contacts(sample, own, run, base):
-    found = contacts.checkContacts(sample, run)
-    for name, one in found.items():
-        run.table(name, one["table"])
-    run.picture("contacts", lambda path: contacts.drawContacts(found, path))
-    return {name: _withoutTable(one) for name, one in found.items()}
-
-
-def _percolation(sample, own, run, base):
-    found = percolation.percolation(**own, seed=sample.seed, rMin=sample.rMin, rMax=sample.rMax, run=run)
-    run.table("percolation", percolation.table(found))
-    run.table(
-        "radius",
-        {
-            "radius [pores]": found["radius"]["free"]["radius"],
-            **{f"{kind} mass [pores]": found["radius"][kind]["mass"] for kind in percolation.DIMENSIONS},
-        },
-    )
-    run.picture("percolation", lambda path: percolation_figures.drawPercolation(found, path))
+    run.picture("sensitivity", lambda path: strength_figures.drawSensitivity(found, path))
     return found
 
 
@@ -166,28 +145,6 @@ def _displacement(sample, own, run, base):
     return found
 
 
-def _toughness(sample, own, run, base):
-    found = toughness.toughness(sample, run=run, **own)
-    for kind in ("lattice", "samples"):
-        tests = found[kind]["tests"]
-        run.table(
-            kind,
-            {
-                **{f"{name} [m]": [t[name] for t in tests] for name in ("halfLength", "radius", "width")},
-                "pressure [Pa]": [t["pressure"] for t in tests],
-                "firstBond [Pa]": [t["firstBond"] for t in tests],
-                "inletPores": [t["inletPores"] for t in tests],
-                **(
-                    {"expected [Pa]": [t["expected"] for t in tests]}
-                    if kind == "lattice"
-                    else {"seed": [t["seed"] for t in tests]}
-                ),
-            },
-        )
-    run.picture("toughness", lambda path: toughness.drawToughness(found, path))
-    return found
-
-
 #: The function of each test.
 REPORTS = {
     "settle": _settle,
@@ -199,8 +156,5 @@ REPORTS = {
     "biaxial": _biaxial,
     "sizes": _sizes,
     "sensitivity": _sensitivity,
-    "contacts": _contacts,
-    "percolation": _percolation,
     "displacement": _displacement,
-    "toughness": _toughness,
 }

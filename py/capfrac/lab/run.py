@@ -23,9 +23,9 @@ run is not finished ``state.json`` with the scene of the last checkpoint in ``sc
 
 import json
 
-from capfrac import environment
 from capfrac.errors import RunFolderError
-from capfrac.run.folder import RunFolder, holdingInterrupts
+from capfrac.run.folder import RunFolder
+from capfrac.run.resumable import Resumable, provenance
 
 #: Rows of a test between checkpoints; what an interruption may cost.
 CHECKPOINT_TICKS = 20
@@ -39,7 +39,7 @@ class LabFolder(RunFolder):
     SUFFIXES = (".csv", ".png", ".gz", ".npz", ".vtu", ".pvd")
 
 
-class LabRun:
+class LabRun(Resumable):
     """Stages, checkpoints and results of a test.
 
     ``test``: its name; ``parameters``: dict of sections, what the run depends on (kept, and compared when a folder is
@@ -49,9 +49,9 @@ class LabRun:
     """
 
     def __init__(self, test, parameters, folder=None, restart=False, report=lambda text: None, files=None):
-        self.report, self._ticks = report, 0
         parameters = {"test": {"name": test}, **parameters}
-        self.folder = None if folder is None else LabFolder(folder, parameters, restart, files)
+        super().__init__(None if folder is None else LabFolder(folder, parameters, restart, files), report)
+        self._ticks = 0
         #: What the stages remember.
         self.data = {}
         self._done, self._results, self._scene, self._summary = [], {}, None, {}
@@ -61,21 +61,10 @@ class LabRun:
         if self.folder is not None:
             self._takeUp()
             if not self.finished:
-                from capfrac.run.injection import versions
-
                 del parameters["test"]
                 self.folder.writeSummary(
-                    state="running",
-                    test=test,
-                    parameters=parameters,
-                    versions=versions(),
-                    threads=environment.most(self.folder.summary),
+                    state="running", test=test, parameters=parameters, **provenance(self.folder.summary)
                 )
-
-    @property
-    def finished(self):
-        """Whether the folder holds the finished test already."""
-        return self.folder is not None and self.folder.finished
 
     @property
     def summary(self):
@@ -108,26 +97,10 @@ class LabRun:
             raise RunFolderError(f"{path} cannot be read ({problem}); --restart discards the run") from None
         self._pending = self._scene is not None
         if self._done or self._results:
-            self.report("taking up the run at its checkpoint")
+            self.tellTakenUp()
 
     def _loadScene(self):
-        from yade import O
-
-        path = self.folder.path / self._scene
-        try:
-            O.reset()
-            O.load(str(path), quiet=True)
-        except (
-            RuntimeError,
-            MemoryError,
-            ValueError,
-        ) as problem:  # what YADE raises depends on where the file ends to make sense
-            O.reset()
-            raise RunFolderError(
-                f"the checkpoint {path} cannot be read ({problem or type(problem).__name__}): damaged, or of another"
-                " version; --restart discards the run"
-            ) from None
-        environment.adoptScene()
+        self.loadScene(self._scene)
         self._pending = False
 
     def stage(self, name, work):
@@ -177,7 +150,7 @@ class LabRun:
 
     def checkpoint(self, scene=True):
         """Save now: the scene first, under a new name, then the state that names it, then the old scene goes."""
-        with holdingInterrupts():
+        with self.holdingInterrupts():
             self._save(scene)
 
     def _save(self, scene):
@@ -194,7 +167,7 @@ class LabRun:
             self._count += 1
             self.folder.sub("scenes")
             self._scene = f"scenes/{self._count}.yade.gz"
-            self.folder.writeWhole(self._scene, lambda path: O.save(str(path), quiet=True))
+            self.saveScene(self._scene)
         state = {
             "data": self.data,
             "done": self._done,
@@ -209,12 +182,6 @@ class LabRun:
             (self.folder.path / old).unlink(missing_ok=True)
         if scene:
             self._loadScene()
-
-    def warn(self, text):
-        """Say a warning, and keep it in the summary."""
-        self.report(f"warning: {text}")
-        if self.folder is not None:
-            self.folder.warn(text)
 
     def table(self, name, columns):
         """Write ``name``.csv: dict of header (with unit) -> list."""
@@ -236,9 +203,8 @@ class LabRun:
         (self.folder.path / "state.json").unlink(missing_ok=True)
         scenes = self.folder.path / "scenes"
         if scenes.is_dir():
-            for entry in list(
-                scenes.glob("*.yade.gz")
-            ):  # those of a process that was killed as it wrote or cleared them, too
+            # those of a process that was killed as it wrote or cleared them, too
+            for entry in list(scenes.glob("*.yade.gz")):
                 entry.unlink()
             if not any(scenes.iterdir()):
                 scenes.rmdir()

@@ -11,9 +11,9 @@ by as much as such steps do.
 import numpy as np
 
 from capfrac.lab.compaction import prepareSample
+from capfrac.lab.orders import orders
 from capfrac.lab.profiles import PROFILE_TIMES, profileAt, withEquations
 from capfrac.lab.transient import steadyFlow, stepEnds, transient
-from capfrac.verification.lattices import orders
 
 #: Steps of the coarsest implicit run beside the explicit one, and how often they are halved.
 COARSEST, HALVINGS = 100, 3

@@ -14,9 +14,8 @@ import numpy as np
 from capfrac.errors import CaseError, SampleError
 from capfrac.lab.run import LabRun
 from capfrac.results import snapshot
-from capfrac.run.folder import exactText
 from capfrac.scene import sediment
-from capfrac.values import isPositive, shown
+from capfrac.values import exactText, isPositive, shown
 
 #: Share of the grains with a contact at which the second stage, settling and rearrangement, begins [-].
 SETTLING_SHARE = 0.5

@@ -9,9 +9,9 @@ import math
 
 import numpy as np
 
+from capfrac.lab.fluid import alone, drainedAt, poresOf
 from capfrac.lab.profiles import PROFILE_TIMES
 from capfrac.scene import sediment
-from capfrac.verification.handmade import alone, drainedAt, poresOf
 
 #: First and last of the steps' ends over T_c [-].
 FIRST_TIME, LAST_TIME = 1e-5, 1.5

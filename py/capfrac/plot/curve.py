@@ -8,7 +8,9 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator, NullFormatter
 
 from capfrac.errors import CaseError
-from capfrac.plot.figures import COLOURS, newFigure, prefix, putLegend, putTitle, saveFigure, saySo, titleOf
+from capfrac.plot.painter import COLOURS
+from capfrac.plot.sheet import newFigure, putLegend, putTitle, saveFigure, saySo, titleOf
+from capfrac.units import prefix
 
 #: What the second and third panel can be drawn over.
 OVER = ("pressure", "time")
@@ -50,13 +52,14 @@ def drawCapillaryCurve(
     text, head = titleOf(title, 9.6)
     total = 3.1 + max(0.0, head - 0.3)
     with newFigure((9.6, total)) as figure:
+        # a second scale takes room
         grid = {
             "left": 0.075,
             "right": 0.985,
             "bottom": 0.51 / total,
             "top": 1 - max(head, 0.15) / total,
             "wspace": 0.33 if bondCount else 0.5,
-        }  # a second scale takes room
+        }
         curve, opening, moving = figure.subplots(1, 3, gridspec_kw=grid)
         word = "breakthrough, here or below" if breakthroughAtStart else "breakthrough"
         _drawCurve(curve, course, levels, (breakthroughPressure - waterPressure) / course.pascal, word)

@@ -6,40 +6,47 @@ as thick as the force is large. A picture's file has the same bytes whenever it 
 """
 
 import math
-import os
-import textwrap
-from contextlib import contextmanager
 
-import matplotlib
 import numpy as np
-from matplotlib import style
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import LineCollection, PatchCollection, PolyCollection
-from matplotlib.figure import Figure
+from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Rectangle
 
 from capfrac.errors import CaseError
-from capfrac.results.snapshot import WALL_AXIS, WALL_NAMES
+from capfrac.plot.painter import (
+    COLOURS,
+    bondStrokes,
+    drawBox,
+    drawCells,
+    drawDisks,
+    drawInlet,
+    drawScaleBar,
+    fitSample,
+    gasDots,
+)
+from capfrac.plot.sheet import newFigure, saveFigure, titleOf
+from capfrac.units import prefix, quantity
 
-COLOURS = {
-    "grain": "#f3e8c3",
-    "rattler": "#f7f4ec",
-    "outline": "#9a8f73",
-    "gas": "#5aa9ea",
-    "dot": "#0f4fa8",
-    "compression": "#8b4a1c",
-    "tension": "#1c8f3a",
-    "broken": "#e0182d",
-    "wall": "#3c3c3c",
-    "inlet": "#0f4fa8",
-}
+__all__ = [
+    "COLOURS",
+    "FORCE_LIMIT",
+    "FORCE_PERCENTILE",
+    "FORCE_WIDTH",
+    "drawPair",
+    "drawSnapshot",
+    "forceScaleOf",
+    "newFigure",
+    "prefix",
+    "quantity",
+    "saveFigure",
+    "stateOf",
+]
+
 #: Forces are drawn to scale up to this percentile of their magnitudes, which is as thick as this share of the mean
 #: radius.
 FORCE_PERCENTILE, FORCE_WIDTH = 95, 0.4
+
 #: Forces above this multiple of that percentile are drawn no thicker: one crack tip must not hide its neighbours.
 FORCE_LIMIT = 2.0
-_RESOLUTION = 220  # dots per inch
 
 
 def drawSnapshot(snapshot, path, title=None, width=4.6, forces=True, bonds=True, dots=True, forceScale=None):
@@ -74,46 +81,6 @@ def forceScaleOf(*snapshots):
     forces = np.concatenate([np.abs(s.normalForce) for s in snapshots])
     forces = forces[forces > 0]
     return float(np.percentile(forces, FORCE_PERCENTILE)) if len(forces) else 1.0
-
-
-def quantity(value, unit, digits=3):
-    """A number with an SI prefix, for people: ``quantity(1.5e5, "Pa")`` is "150 kPa"."""
-    prefixes = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
-    if not math.isfinite(value) or value == 0:
-        return f"{value:g} {unit}"
-    # Round first: 999.9 of one prefix is 1 of the next.
-    value = float(f"{value:.{digits}g}")
-    power = min(max(3 * math.floor(math.log10(abs(value)) / 3 + 1e-12), -12), 9)
-    return f"{value / 10.0**power:.{digits}g} {prefixes[power]}{unit}"
-
-
-def prefix(highest, unit):
-    """The power of a thousand that makes ``highest`` a number from 1 to 1000, and the unit with its prefix."""
-    if not highest > 0:
-        return 1.0, unit
-    power = min(max(3 * math.floor(math.log10(highest) / 3 + 1e-12), -9), 6)
-    return 10.0**power, {-9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M"}[power] + unit
-
-
-def saySo(axes, text):
-    """Say in a panel why it is empty."""
-    axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", fontsize=8, color="0.45")
-    axes.set_yticks([])
-    axes.minorticks_off()
-
-
-def putLegend(axes, *others):
-    """A legend of what the axes (and others over them) hold, where it hides least; none where they hold nothing."""
-    keys = [key for each in (axes, *others) for key in each.get_legend_handles_labels()[0]]
-    if keys:
-        axes.legend(handles=keys, fontsize=7, framealpha=0.8, edgecolor="none", borderpad=0.2, loc="best")
-
-
-def fitSample(s, width):
-    """Inches per metre, and the size of a sample's picture [inches]: ``width`` wide, but at most twice as high."""
-    across, up = s.box[1] - s.box[0], s.box[3] - s.box[2]
-    scale = min(width / across, 2 * width / up)
-    return scale, scale * across, scale * up
 
 
 def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale):
@@ -166,31 +133,17 @@ def stateOf(snapshot):
 
 def _drawSample(axes, s, points, forces, bonds, dots, scale):
     """``points`` per metre turn lengths of the sample into widths of lines; ``scale`` [N] is the standard force."""
-    left, right, bottom, top = s.box
     radius = float(np.mean(s.r)) * points if len(s.r) else 1.0
 
     gas = np.flatnonzero(s.gasCells)
-    # Outlines of their own colour close the hairlines that antialiasing leaves between neighbouring cells.
-    axes.add_collection(
-        PolyCollection(
-            [s.polygon(c) for c in gas], facecolors=COLOURS["gas"], edgecolors=COLOURS["gas"], linewidths=0.5, zorder=1
-        )
-    )
+    drawCells(axes, [s.polygon(c) for c in gas], COLOURS["gas"], zorder=1)
     colours = np.where(s.rattler, COLOURS["rattler"], COLOURS["grain"])
-    grains = [Circle(centre, r) for centre, r in zip(np.column_stack([s.x, s.y]), s.r)]
-    axes.add_collection(
-        PatchCollection(
-            grains,
-            facecolors=list(colours),
-            edgecolors=COLOURS["outline"],
-            zorder=2,
-            linewidths=min(0.6, 0.06 * radius),
-        )
-    )
+    places = np.column_stack([s.x, s.y])
+    drawDisks(axes, places, s.r, list(colours), COLOURS["outline"], min(0.6, 0.06 * radius), zorder=2)
     if dots and len(gas):
-        centres, clearances = _gasDots(s, gas)
-        spots = [Circle(centre, r) for centre, r in zip(centres, np.minimum(0.6 * clearances, 0.3 * np.mean(s.r)))]
-        axes.add_collection(PatchCollection(spots, facecolors=COLOURS["dot"], linewidths=0, zorder=3))
+        centres, clearances = gasDots(s, gas)
+        dotRadii = np.minimum(0.6 * clearances, 0.3 * np.mean(s.r))
+        drawDisks(axes, centres, dotRadii, COLOURS["dot"], None, 0, zorder=3)
     if forces:
         for colour, sign, layer in (("compression", 1, 4), ("tension", -1, 5)):
             chosen = np.sign(s.normalForce) == sign
@@ -206,97 +159,14 @@ def _drawSample(axes, s, points, forces, bonds, dots, scale):
                 bondStrokes(s), colors=COLOURS["broken"], linewidths=_strokeWidth(radius), capstyle="round", zorder=6
             )
         )
-    axes.add_patch(
-        Rectangle(
-            (left, bottom),
-            right - left,
-            top - bottom,
-            fill=False,
-            edgecolor=COLOURS["wall"],
-            linewidth=1.2,
-            zorder=7,
-            clip_on=False,
-        )
-    )
+    drawBox(axes, s, zorder=7, clip_on=False)
     drawInlet(axes, s, points)
-    axes.set(xlim=(left, right), ylim=(bottom, top))
+    axes.set(xlim=s.box[:2], ylim=s.box[2:])
     axes.set_axis_off()
 
 
 def _strokeWidth(radius):
     return min(max(0.16 * radius, 0.7), 2.0)
-
-
-def _gasDots(s, gas):
-    """For each gas domain the roomiest of many trial points in its cells, and its distance to the nearest grain [m].
-
-    Such a point is in the pore whatever its shape; a centroid may lie on a grain.
-    """
-    n = 9
-    weights = np.array([(i, j, n - i - j) for i in range(n + 1) for j in range(n + 1 - i)]) / n
-    best = {}
-    for c in gas:
-        corners, rows = s.polygon(c), s.rowOf(s.cellVertices[c])
-        rows = rows[rows >= 0]
-        fan = np.array([[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)])
-        trials = (weights @ fan).reshape(-1, 2)
-        free = np.min(np.hypot(trials[:, :1] - s.x[rows], trials[:, 1:] - s.y[rows]) - s.r[rows], axis=1)
-        free = np.minimum(free, np.min(np.abs(trials[:, [0, 0, 1, 1]] - s.box), axis=1))
-        k = int(np.argmax(free))
-        if free[k] > best.get(s.cellDomain[c], (0.0, None))[0]:
-            best[s.cellDomain[c]] = (free[k], trials[k])
-    order = sorted(best)
-    return np.array([best[d][1] for d in order]).reshape(-1, 2), np.array([best[d][0] for d in order])
-
-
-def bondStrokes(s):
-    """Short strokes across the broken contacts, half way between the surfaces of the two bodies."""
-    ends = s.endsOf(s.brokenBonds)
-    known = np.all(np.isfinite(ends), axis=(1, 2))
-    ends, rows = ends[known], s.rowOf(s.brokenBonds[known])
-    radii = np.where(rows >= 0, s.r[rows], 0.0)
-    along = ends[:, 1] - ends[:, 0]
-    length = np.linalg.norm(along, axis=1, keepdims=True)
-    along = along / np.where(length > 0, length, 1)
-    middle = ends[:, 0] + along * 0.5 * (length + radii[:, :1] - radii[:, 1:])
-    half = (
-        0.4
-        * np.where(radii > 0, radii, np.inf).min(axis=1, keepdims=True)
-        * np.column_stack([-along[:, 1], along[:, 0]])
-    )
-    return np.stack([middle - half, middle + half], axis=1)
-
-
-def drawInlet(axes, s, points, **marker):
-    """Where the gas comes in: a bar along the wall, or marks at the points; ``points`` (of widths) per metre."""
-    if s.inletPoints.size:
-        marker = {
-            "marker": "o",
-            "markersize": 6,
-            "markerfacecolor": "none",
-            "markeredgecolor": COLOURS["inlet"],
-            **marker,
-        }
-        axes.plot(*s.inletPoints.T, linestyle="none", zorder=9, **marker)
-    if s.inletWall and s.inletTo > s.inletFrom:
-        # A bar just outside of the wall, over the stretch that takes the gas.
-        axis, place = WALL_AXIS[s.inletWall], s.box[WALL_NAMES.index(s.inletWall)]
-        outward = 1 if WALL_NAMES.index(s.inletWall) % 2 else -1
-        line = np.empty((2, 2))
-        line[:, axis] = place + outward * 2.6 / points
-        line[:, 1 - axis] = s.inletFrom, s.inletTo
-        axes.plot(*line.T, color=COLOURS["inlet"], linewidth=4, solid_capstyle="butt", clip_on=False, zorder=8)
-
-
-def drawScaleBar(axes, s, inches):
-    """A bar of 1, 2 or 5 units, at most a quarter of the sample, below its right corner; ``inches`` per metre."""
-    left, right, bottom, _ = s.box
-    room = (right - left) / 4
-    decade = 10.0 ** math.floor(math.log10(room))
-    length = max(m * decade for m in (1, 2, 5) if m * decade <= room)
-    y = bottom - 0.19 / inches
-    axes.plot([right - length, right], [y, y], color="black", linewidth=1.6, solid_capstyle="butt", clip_on=False)
-    axes.text(right - 1.03 * length, y, quantity(length, "m"), ha="right", va="center", fontsize=8)
 
 
 def _legend(snapshots, points, forces, bonds, dots, scales, alike):
@@ -334,9 +204,8 @@ def _legend(snapshots, points, forces, bonds, dots, scales, alike):
         round1 = float(f"{scales[0]:.1g}")
         force = {"linewidth": FORCE_WIDTH * radius * round1 / scales[0], "solid_capstyle": "butt"}
         for name, sign in (("compression", 1), ("tension", -1)):
-            if any(
-                np.any(sign * t.normalForce > 0.02 * scale) for t, scale in zip(snapshots, scales)
-            ):  # else no one could see it
+            # else no one could see it
+            if any(np.any(sign * t.normalForce > 0.02 * scale) for t, scale in zip(snapshots, scales)):
                 handles.append(
                     Line2D(
                         [],
@@ -372,44 +241,3 @@ def _legendColumns(handles, room):
         if sum(0.049 * n + 0.32 for n in longest) <= room:
             return columns
     return 1
-
-
-def titleOf(title, width, size=10):
-    """A title for a figure ``width`` inches wide: its text, in as many lines as needed (up to 3), and the height
-    [inches].
-    """
-    if not title:
-        return "", 0.0
-    # 0.6 of the size is the mean width of a letter, with room to spare.
-    lines = textwrap.wrap(title, max(10, int((width - 0.3) * 72 / (0.56 * size))), max_lines=3, placeholder=" …")
-    return "\n".join(lines), 0.14 + len(lines) * 1.25 * size / 72
-
-
-def putTitle(figure, text, size=10):
-    """Put what :func:`titleOf` gave above a figure."""
-    if text:
-        figure.suptitle(text, fontsize=size, y=1 - 0.05 / figure.get_figheight(), va="top")
-
-
-@contextmanager
-def newFigure(size):
-    """An empty figure in matplotlib's own style: the user's matplotlibrc must not change the pictures."""
-    with style.context("default"), matplotlib.rc_context(
-        {"svg.hashsalt": "capfrac", "font.size": 9, "pdf.fonttype": 42}
-    ):
-        figure = Figure(figsize=size, dpi=_RESOLUTION)
-        FigureCanvasAgg(figure)
-        yield figure
-
-
-def saveFigure(figure, path):
-    """Without the date and the versions that matplotlib would put into the file."""
-    kind = os.path.splitext(str(path))[1].lower()
-    metadata = {
-        ".png": {"Software": None},
-        ".pdf": {"CreationDate": None, "Producer": None, "Creator": None},
-        ".svg": {"Date": None, "Creator": None},
-    }
-    if kind not in metadata:
-        raise CaseError(f"the picture {path} would be of kind '{kind}', allowed: .png, .pdf, .svg")
-    figure.savefig(path, metadata=metadata[kind])

@@ -11,13 +11,13 @@ The values are those of the snapshot, in SI units; lengths are in metres, so a s
 ParaView.
 """
 
-import csv
 import os
 from xml.etree import ElementTree
 
 import numpy as np
 
 from capfrac.errors import CapfracError, CaseError
+from capfrac.io.csvfiles import writeRows
 
 
 def writeFields(snapshot, folder, stem):
@@ -140,12 +140,10 @@ def writeNetwork(snapshot, folder):
     }
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, "network.csv")
-    with open(path, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
-        writer.writerow(columns)
-        # OpenPNM keeps pores and throats side by side in one table; the shorter columns end in blanks.
-        for k in range(max(len(domains), len(conns))):
-            writer.writerow([repr(values[k].item()) if k < len(values) else "" for values in columns.values()])
+    # OpenPNM keeps pores and throats side by side in one table; the shorter columns end in blanks.
+    longest = max(len(domains), len(conns))
+    rows = ([repr(values[k].item()) if k < len(values) else "" for values in columns.values()] for k in range(longest))
+    writeRows(path, columns, rows, end="\n")
     return path
 
 

@@ -23,8 +23,8 @@ import numpy as np
 
 from capfrac.errors import CaseError, RunFolderError
 from capfrac.results import snapshot
+from capfrac.results.fracture.measure import readEvents
 from capfrac.results.fracture.passage import findPassage
-from capfrac.results.fracture.report import readEvents
 
 #: Bounds of the rule: shares of the opened throats on the way, share of the gas in room that grains made, displacement
 #: of nine tenths of the grains over their radius [-]. Room: were every contact around the gas widened by 0.01 mean

@@ -16,19 +16,17 @@
 Files are written beside their place and moved there whole, so an interrupted run never leaves half a file.
 """
 
-import csv
 import hashlib
 import json
 import math
 import os
 import re
-import signal
-import threading
-from contextlib import contextmanager
 from pathlib import Path
 
 from capfrac.errors import RunFolderError
+from capfrac.io.csvfiles import writeColumns
 from capfrac.io.namedfiles import byContent, changedFiles
+from capfrac.io.wholefiles import putInPlace
 
 STATES = ("running", "interrupted", "failed", "finished")
 #: Names of files that are being written.
@@ -44,12 +42,6 @@ def _plain(value):
     if isinstance(value, float) and not math.isfinite(value):
         return None
     return value
-
-
-def exactText(value, form=".15g"):
-    """A number as part of a name, as ``form`` writes it where that is exact: different numbers have different names."""
-    text = format(float(value), form)
-    return text if float(text) == value else repr(float(value))
 
 
 def caseKey(case, files):
@@ -86,43 +78,6 @@ def readSummary(folder):
     except (OSError, ValueError):
         return {}
     return summary if isinstance(summary, dict) else {}
-
-
-@contextmanager
-def holdingInterrupts():
-    """Let Ctrl-C and TERM wait until the block is left: saving and loading a scene must be done whole.
-
-    (YADE runs Python commands while it loads, and turns an interruption there into an error of its own.)
-    """
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    waiting = []
-    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
-    for number, handler in before.items():
-        if callable(handler):  # what ends the process, or is ignored, stays so
-            signal.signal(number, lambda *arguments: waiting.append(arguments))
-    try:
-        yield
-    finally:
-        for number, handler in before.items():
-            if callable(handler):
-                signal.signal(number, handler)
-    if waiting:
-        before[waiting[0][0]](*waiting[0])
-
-
-def putInPlace(aside, target, write):
-    """Let ``write(aside)`` write a file and move it to ``target`` at once; both in one folder. Raises
-    :class:`RunFolderError` where that fails.
-    """
-    try:
-        write(aside)
-        os.replace(aside, target)
-    except OSError as problem:
-        raise RunFolderError(f"{target} cannot be written: {problem.strerror}") from None
-    finally:
-        aside.unlink(missing_ok=True)
 
 
 class RunFolder:
@@ -211,9 +166,8 @@ class RunFolder:
         for folder in folders:
             written += [entry for entry in folder.iterdir() if entry.suffix in self.SUFFIXES]
         try:
-            for entry in written + [
-                self.path / "summary.json"
-            ]:  # the summary last: without it the rest would be foreign
+            # The summary last: without it the rest would be foreign.
+            for entry in [*written, self.path / "summary.json"]:
                 entry.unlink(missing_ok=True)
             for folder in folders:
                 if not any(folder.iterdir()):
@@ -246,75 +200,6 @@ class RunFolder:
         text = json.dumps(self.summary, indent=2) + "\n"
         self.writeWhole("summary.json", lambda path: path.write_text(text, encoding="utf-8"))
 
-    def saveCheckpoint(self):
-        """Save YADE's current scene as the checkpoint."""
-        from yade import O
-
-        self.writeWhole("checkpoint.yade.gz", lambda path: O.save(str(path), quiet=True))
-
     def writeTable(self, name, columns):
         """Write a CSV of equally long columns: dict of header (with unit) -> list."""
-
-        def write(path):
-            with open(path, "w", newline="", encoding="utf-8") as stream:
-                writer = csv.writer(stream)
-                writer.writerow(columns)
-                writer.writerows(zip(*columns.values()))
-
-        self.writeWhole(name, write)
-
-    def writeLogs(self, gas, levels=None, history=None):
-        """Write events.csv, pc_saturation.csv and history.csv from the engine's logs; ``levels`` and ``history``: those
-        of a run that has ended.
-        """
-        e, levels, history = gas.events(), levels or gas.levels(), history or gas.history()
-        self.writeTable(
-            "events.csv",
-            {
-                "event": list(range(1, len(e["time"]) + 1)),
-                "time [s]": e["time"],
-                "iteration": e["iteration"],
-                "level": e["level"],
-                "capillaryPressure [Pa]": [p - gas.waterPressure for p in e["gasPressure"]],
-                "throat": ["-".join(map(str, ids)) for ids in e["throat"]],
-                "pore": ["-".join(map(str, ids)) for ids in e["pore"]],
-                "x [m]": e["x"],
-                "y [m]": e["y"],
-                "entryPressure [Pa]": e["entryPressure"],
-                "gap [m]": e["gap"],
-                "gapGrowth [m]": e["gapGrowth"],
-                "bondBroken": [int(b) for b in e["bondBroken"]],
-                "kind": ["opened" if o else "rigid" for o in e["opened"]],
-                "cells": e["cells"],
-                "volume [m^3]": e["volume"],
-            },
-        )
-        self.writeTable(
-            "pc_saturation.csv",
-            {
-                "level": list(range(1, len(levels["pressure"]) + 1)),
-                "capillaryPressure [Pa]": [p - gas.waterPressure for p in levels["pressure"]],
-                "gasSaturation": levels["gasSaturation"],
-                "gasVolume [m^3]": levels["gasVolume"],
-                "brokenBonds": levels["brokenBonds"],
-                "displacement [r]": levels["displacement"],
-                "displacementWithRattlers [r]": levels["displacementWithRattlers"],
-                "unbalanced": levels["unbalanced"],
-                "atRest": [int(rest) for rest in levels["atRest"]],
-                "iteration": levels["iteration"],
-                "finished": [int(done) for done in levels.get("finished", [True] * len(levels["pressure"]))],
-            },
-        )
-        self.writeTable(
-            "history.csv",
-            {
-                "time [s]": history["time"],
-                "iteration": history["iteration"],
-                "capillaryPressure [Pa]": [p - gas.waterPressure for p in history["gasPressure"]],
-                "connectedVolume [m^3]": history["connectedVolume"],
-                "mass [kg]": history["mass"],
-                "gasSaturation": history["gasSaturation"],
-                "brokenBonds": history["brokenBonds"],
-                "level": history["level"],
-            },
-        )
+        self.writeWhole(name, lambda path: writeColumns(path, columns))

@@ -11,9 +11,8 @@ import importlib.util
 import os
 import sys
 
-_program, *_last = os.environ.pop("CAPFRAC_STARTS", "").split(
-    os.pathsep
-)  # for this process, not for those that it starts
+# for this process, not for those that it starts
+_program, *_last = os.environ.pop("CAPFRAC_STARTS", "").split(os.pathsep)
 if _program:
     _scripts = sys.argv[:1] if _program == "python" else [text for text in sys.argv[1:] if text.endswith(".py")][:1]
     _isScript = bool(_scripts) and os.path.isfile(_scripts[0])

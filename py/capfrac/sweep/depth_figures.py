@@ -3,13 +3,13 @@
 both.
 """
 
-import csv
 
 import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from capfrac.plot.figures import newFigure, saveFigure
+from capfrac.io.csvfiles import writeRows
+from capfrac.plot.sheet import newFigure, saveFigure
 from capfrac.sweep import regime_map, table
 from capfrac.sweep.regime_figures import MODES
 from capfrac.theory import depth
@@ -152,56 +152,40 @@ def _key(figure, rows):
     figure.legend(handles=entries, loc="lower center", ncol=4, frameon=False, fontsize=8, columnspacing=1.4)
 
 
+#: What theory says of a depth: name in :func:`capfrac.depth.bands` -> unit.
+THEORY = {"stressH": "Pa", "threshold": "Pa", "fracture": "Pa", "pressure": "Pa", "column": "m", "ratio": "-"}
+#: Columns of the table of :func:`writeSummary`.
+SUMMARY_COLUMNS = (
+    "depth [m]",
+    *(f"{name}{end} [{unit}]" for name, unit in THEORY.items() for end in ("Low", "", "High")),
+    "fractureShare [-]",
+    "runs [-]",
+    "runPressureLow [Pa]",
+    "runPressureHigh [Pa]",
+    "runColumnLow [m]",
+    "runColumnHigh [m]",
+    "modes",
+    "modesElsewhereInTheRanges",
+)
+
+
 def writeSummary(rows, path):
     """Theory and runs for each depth of the sweep as a CSV: ranges as low, best and high; of the runs those of the best
     guess, and modes of all.
     """
     depths = sorted({row["depth [m]"] for row in rows})
     theory = depth.bands(depths)
-    with open(path, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream)
-        names = [
-            f"{name}{end} [{unit}]"
-            for name, unit in (
-                ("stressH", "Pa"),
-                ("threshold", "Pa"),
-                ("fracture", "Pa"),
-                ("pressure", "Pa"),
-                ("column", "m"),
-                ("ratio", "-"),
-            )
-            for end in ("Low", "", "High")
-        ]
-        writer.writerow(
-            [
-                "depth [m]",
-                *names,
-                "fractureShare [-]",
-                "runs [-]",
-                "runPressureLow [Pa]",
-                "runPressureHigh [Pa]",
-                "runColumnLow [m]",
-                "runColumnHigh [m]",
-                "modes",
-                "modesElsewhereInTheRanges",
-            ]
-        )
-        for k, z in enumerate(depths):
-            here = [row for row in rows if row["depth [m]"] == z]
-            best = [row for row in here if row["best"]]
-            numbers = [
-                theory[name][end][k]
-                for name in ("stressH", "threshold", "fracture", "pressure", "column", "ratio")
-                for end in range(3)
-            ]
-            ends = [f(row[name] for row in best) if best else "" for name in ("pressure", "column") for f in (min, max)]
-            writer.writerow(
-                [
-                    f"{value:.5g}" if isinstance(value, float) else value
-                    for value in (z, *map(float, numbers), float(theory["fractureShare"][k]), len(best), *ends)
-                ]
-                + [_count(best), _count([row for row in here if not row["best"]])]
-            )
+    table = (_summaryRow(k, theory, [row for row in rows if row["depth [m]"] == z], z) for k, z in enumerate(depths))
+    writeRows(path, SUMMARY_COLUMNS, table, form=".5g")
+
+
+def _summaryRow(k, theory, here, z):
+    """The values of :data:`SUMMARY_COLUMNS` at the depth number ``k``, ``z`` [m], with its runs ``here``."""
+    best = [row for row in here if row["best"]]
+    numbers = [float(theory[name][end][k]) for name in THEORY for end in range(3)]
+    ends = [f(row[name] for row in best) if best else "" for name in ("pressure", "column") for f in (min, max)]
+    modes = [_count(best), _count([row for row in here if not row["best"]])]
+    return [z, *numbers, float(theory["fractureShare"][k]), len(best), *ends, *modes]
 
 
 def _count(rows):

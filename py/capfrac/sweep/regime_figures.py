@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from capfrac.plot.figures import newFigure, saveFigure
+from capfrac.plot.sheet import newFigure, saveFigure
 from capfrac.sweep import regime_map
 from capfrac.theory import regime
 

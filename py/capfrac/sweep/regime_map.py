@@ -4,10 +4,10 @@
 Everything here is computed from a table (:mod:`capfrac.sweep.table`), never from the runs themselves.
 """
 
-import csv
 
 import numpy as np
 
+from capfrac.io.csvfiles import writeRows
 from capfrac.sweep import table
 from capfrac.theory import regime
 
@@ -128,54 +128,53 @@ def numbers(rows):
     }
 
 
+#: Columns of the table of :func:`writeChanges`.
+CHANGE_COLUMNS = (
+    "cohesion.chi [-]",
+    "stress.horizontal [Pa]",
+    "runs [-]",
+    "inlet a/r [-]",
+    "rStar [m]",
+    "allFractureUpTo [m]",
+    "noFractureFrom [m]",
+    "allCapillaryFrom [m]",
+    "rStarByThroats [m]",
+    "rStarByMedianDisplacement [m]",
+    "rStarTheory [m]",
+    "exponent [-]",
+    "exponentError [-]",
+    "exponentByMedianDisplacement [-]",
+    "exponentByMedianDisplacementError [-]",
+)
+
+
 def writeChanges(rows, path):
     """Write r* of each cohesion and stress by both opinions and by theory, and the fitted exponents, as a CSV with
     units in its header.
     """
     found = changes(rows)
     fits = laws(found)
-    with open(path, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.writer(stream)
-        writer.writerow(
-            [
-                "cohesion.chi [-]",
-                "stress.horizontal [Pa]",
-                "runs [-]",
-                "inlet a/r [-]",
-                "rStar [m]",
-                "allFractureUpTo [m]",
-                "noFractureFrom [m]",
-                "allCapillaryFrom [m]",
-                "rStarByThroats [m]",
-                "rStarByMedianDisplacement [m]",
-                "rStarTheory [m]",
-                "exponent [-]",
-                "exponentError [-]",
-                "exponentByMedianDisplacement [-]",
-                "exponentByMedianDisplacementError [-]",
-            ]
-        )
-        for entry in found:
-            change, fit = entry["change"], fits[entry["chi"]]
-            exponents = [
-                getattr(fit.get(opinion), name, np.nan)
-                for opinion in ("change", "gaveWay")
-                for name in ("exponent", "error")
-            ]
-            values = [
-                entry["chi"],
-                entry["stressH"],
-                change.runs,
-                entry["aOverR"],
-                change.radius,
-                change.low,
-                change.high,
-                change.rigid,
-                entry["byThroats"].radius,
-                entry["gaveWay"],
-                entry["theory"],
-                *exponents,
-            ]
-            writer.writerow(
-                ["" if isinstance(value, float) and not np.isfinite(value) else f"{value:.5g}" for value in values]
-            )
+    writeRows(path, CHANGE_COLUMNS, (_changeRow(entry, fits[entry["chi"]]) for entry in found))
+
+
+def _changeRow(entry, fit):
+    """The numbers of :data:`CHANGE_COLUMNS` of one cohesion and stress, as texts; what there is not is empty."""
+    change = entry["change"]
+    exponents = [
+        getattr(fit.get(opinion), name, np.nan) for opinion in ("change", "gaveWay") for name in ("exponent", "error")
+    ]
+    values = [
+        entry["chi"],
+        entry["stressH"],
+        change.runs,
+        entry["aOverR"],
+        change.radius,
+        change.low,
+        change.high,
+        change.rigid,
+        entry["byThroats"].radius,
+        entry["gaveWay"],
+        entry["theory"],
+        *exponents,
+    ]
+    return ["" if isinstance(value, float) and not np.isfinite(value) else f"{value:.5g}" for value in values]

@@ -21,8 +21,8 @@ def runSweep(sweep, folder, processes=1, points=None, retry=False, report=lambda
     machine, and stays open (see :func:`capfrac.sweep.execution.runAll`). Interrupted (Ctrl-C), the folder is left
     usable and the interruption goes on to the caller; the same call then goes on. The result: counts of ``finished``,
     ``failed`` and all ``points`` (the rest are points whose future was cancelled), ``failures`` (pairs of a point's
-    name and what it said), ``table`` (its path), ``seconds`` of this call. Raises :class:`CapfracError` where the
-    executor breaks, :class:`CaseError` for numbers of points, processes or threads that are none.
+    name and what it said), ``table`` (its path), ``seconds`` of this call. Raises :class:`CapfracError`
+    where the executor breaks, :class:`CaseError` for numbers of points, processes or threads that are none.
     """
     environment.checkThreads(threads)
     for name, value in (("processes", processes), ("points", points)):

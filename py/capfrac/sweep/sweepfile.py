@@ -32,9 +32,10 @@ from capfrac.case import schema
 from capfrac.errors import CaseError
 from capfrac.io import tomlfiles
 from capfrac.sweep.formulas import Formula
-from capfrac.sweep.points import CASE_KEYS, SEED, resolvePoints
-from capfrac.sweep.points import Point, refinementLevels  # noqa: F401 (part of this module)
+from capfrac.sweep.points import CASE_KEYS, SEED, Point, refinementLevels, resolvePoints
 from capfrac.values import asFloat, didYouMean, shown
+
+__all__ = ["Point", "Sweep", "readSweep", "refinementLevels", "resolveSweep", "shippedSweeps"]
 
 #: More points than this are a mistake in a list rather than a plan.
 MAX_POINTS = 100_000

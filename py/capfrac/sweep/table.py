@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The table of a sweep: one line a point, a CSV with units in its header."""
 
-import csv
 import math
 
 from capfrac.errors import CaseError
+from capfrac.io.csvfiles import readRows, writeRows
 from capfrac.results import mode
 
 #: Columns after those of the sweep file: header -> how to find it in a run's summary.
@@ -69,13 +69,7 @@ def header(name, unit):
 
 def write(path, rows):
     """Write rows (all with the same headers) as a CSV; empty for None."""
-    with open(path, "w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, fieldnames=list(rows[0]))
-        writer.writeheader()
-        for line in rows:
-            writer.writerow(
-                {name: f"{value:.6g}" if isinstance(value, float) else value for name, value in line.items()}
-            )
+    writeRows(path, list(rows[0]), (line.values() for line in rows), form=".6g")
 
 
 def read(path, needed=()):
@@ -84,8 +78,7 @@ def read(path, needed=()):
     Raises :class:`CaseError` for a file that is no such table, or one that lacks a ``needed`` column.
     """
     try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:  # a spreadsheet may have saved it
-            rows = list(csv.DictReader(stream))
+        rows = readRows(path)
     except (OSError, UnicodeDecodeError) as problem:
         raise CaseError(f"the table {path} cannot be read: {problem}") from None
     for name in ("point", "state", *needed):

@@ -30,9 +30,8 @@ def main():
     """
     parent, folder, key, threads, base, *overrides = sys.argv[1:]
     dieWith(int(parent))
-    signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # a sweep in the background of a script hands an ignored one on
+    # a sweep in the background of a script hands an ignored one on
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     from capfrac.case.read import readCase
     from capfrac.errors import CapfracError, CaseError
     from capfrac.io.namedfiles import digests

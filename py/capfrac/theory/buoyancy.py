@@ -7,10 +7,9 @@ unstable: thin fingers); gas that is pushed down from above leaves ever lower on
 """
 
 
+from capfrac.constants import STANDARD_GRAVITY
 from capfrac.errors import CaseError
 from capfrac.values import isNotNegative, isPositive, shown
-
-STANDARD_GRAVITY = 9.80665  #: [m/s^2]
 
 
 def criticalColumn(capillaryPressure, waterDensity, gasDensity, g=STANDARD_GRAVITY):

@@ -8,6 +8,7 @@ pressures [Pa] capillary, p_g - p_w, unless called absolute; compression is posi
 
 import numpy as np
 
+from capfrac.constants import METHANE_MOLAR_MASS
 from capfrac.theory import regime
 
 #: Porosity model phi = PHI_DEEP + (PHI_TOP - PHI_DEEP) exp(-z / DECAY) and densities [kg/m^3] of a published model of
@@ -15,9 +16,9 @@ from capfrac.theory import regime
 PHI_TOP, PHI_DEEP, DECAY, RHO_WATER, RHO_GRAIN = 0.63, 0.10, 1400.0, 1024.0, 2700.0
 #: Water depth [m], temperature of the seafloor [K] and its gradient [K/m], of the same model.
 WATER_DEPTH, T_SEAFLOOR, T_GRADIENT = 790.0, 277.15, 0.059
-#: g [m/s^2] and R [J/(mol K)]; methane: molar mass [kg/mol], critical temperature [K] and pressure [Pa], acentric
-#: factor [-].
-G, R, METHANE, T_CRITICAL, P_CRITICAL, ACENTRIC = 9.81, 8.314, 0.016043, 190.56, 4.599e6, 0.011
+#: g [m/s^2] and R [J/(mol K)], rounded as in that model; methane: molar mass [kg/mol], critical temperature [K] and
+#: pressure [Pa], acentric factor [-].
+G, R, METHANE, T_CRITICAL, P_CRITICAL, ACENTRIC = 9.81, 8.314, METHANE_MOLAR_MASS, 190.56, 4.599e6, 0.011
 #: Ranges (low, best, high): K0; interfacial tension [N/m]; radius of the throats through which gas percolates [m], from
 #: the mercury curve of 1248C-14H-3 at half its pore space, its steepest part, and a tenth; sigma'_V over the porosity
 #: model's (970 kPa at 160 m were stated, the model has 1050); cohesion chi; half-width of the flaw over the mean
@@ -70,9 +71,8 @@ def methaneDensity(pressure, temperature):
                 b[index] ** 3 + b[index] ** 2 - a[index] * b[index],
             ]
         )
-        z[index] = max(
-            root.real for root in roots if abs(root.imag) < 1e-9
-        )  # one real root above the critical temperature
+        # one real root above the critical temperature
+        z[index] = max(root.real for root in roots if abs(root.imag) < 1e-9)
     return pressure * METHANE / (z * R * temperature)
 
 

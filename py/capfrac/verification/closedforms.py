@@ -16,10 +16,13 @@ import math
 
 import numpy as np
 
+from capfrac.lab.fluid import advance, fill, poresOf
+from capfrac.lab.orders import orders
 from capfrac.lab.run import LabRun
+from capfrac.values import requirePositive
 from capfrac.verification import lattices, units
-from capfrac.verification.handmade import advance, besideColumn, column, fill, poresOf, requirePositive
-from capfrac.verification.lattices import conductance, orders
+from capfrac.verification.handmade import besideColumn, column
+from capfrac.verification.lattices import conductance
 
 #: Numbers of time steps in the decay time of the two pores.
 STEPS = (5, 10, 20, 40, 80, 160)
@@ -35,7 +38,8 @@ def checkClosedForms(sample=None, bulkModulus=1e7, viscosity=1e-3, pressure=1e3,
     ``sample``: a :class:`~capfrac.sediment.Sediment` whose ``rMin`` [m] is the grains' smallest radius, with the
     contacts of the moving grains; the fluid's ``bulkModulus`` [Pa] and ``viscosity`` [Pa s], all > 0; ``pressure`` [Pa]
     that drives it. The parts: :func:`twoPores`, :func:`network`, :func:`lattices.permeabilities`,
-    :func:`lattices.pulse` (over ten diameters), :func:`units.checkUnits`. :class:`CaseError` for impossible values.
+    :func:`lattices.pulse` (over ten diameters), :func:`units.checkUnits`. :class:`CaseError` for
+    impossible values.
     """
     sample = sample or units.defaultSample()
     run = run or LabRun("closed-forms", {})

@@ -17,6 +17,7 @@ import numpy as np
 
 from capfrac.errors import CaseError
 from capfrac.lab.compaction import prepareSample
+from capfrac.lab.fluid import drainedAt
 from capfrac.lab.run import LabRun
 from capfrac.scene import sediment
 from capfrac.scene.packing import hexagonal
@@ -30,23 +31,27 @@ from capfrac.theory.poroelasticity import (
     terzaghiPressure,
 )
 from capfrac.values import isPositive, shown
-from capfrac.verification.handmade import alone, drainedAt
+from capfrac.verification.material import measureMaterial
 
 #: Time factor c t/H^2 at which the tests end.
 LAST_TIME = {"terzaghi": 2.0, "mandel": 0.4}
+
 #: Share of the steps over which the load is put on, evenly; time counts from the middle of it. A sudden one makes
 #: waves, which in a block that is free at its sides swing on until the pressure is at its peak.
 RAMP = {"terzaghi": 0.0, "mandel": 0.015}
+
 #: Rows of a test, at times that grow geometrically.
 ROWS = 120
+
 #: The pressure is averaged over this share of the length from the base or the middle: pores differ from their
 #: neighbours, because a load changes the shape of each in its own way.
 WINDOW = {"terzaghi": 0.1, "mandel": 0.2}
+
 #: Pressures in the middle, over p0, at which times are compared as they fall.
 FALLEN = (0.95, 0.9, 0.85, 0.8)
+
 #: Degrees of consolidation at which time factors are compared.
 DEGREES = (0.25, 0.5, 0.75, 0.9)
-_SAVED = "capfrac.consolidation"
 
 
 def consolidation(
@@ -100,103 +105,6 @@ def consolidation(
     return run.result(
         kind, lambda: (run.stage("sample", prepare), _load(kind, material, load, bulkModulus, steps, run))[1]
     )
-
-
-# --- the material --------------------------------------------------------------------------------
-
-
-def measureMaterial(load, bulkModulus):
-    """The coefficients of the sample in the scene, which is left as it was, by small tests of the size of ``load``
-    [Pa]; a dict.
-
-    Stiffnesses from dry compression between fixed sides; b and M from raising the pressure between fixed walls: total
-    stress over pressure, and water that entered; permeabilities from steady flow.
-    """
-    from yade import O
-
-    O.saveTmp(_SAVED, quiet=True)
-    found = {}
-    for wall in ("right", "top"):
-        found[wall] = _stiffness(wall, load)
-        O.loadTmp(_SAVED, quiet=True)
-    bx, by, M = _pressurize(load, bulkModulus)
-    O.loadTmp(_SAVED, quiet=True)
-    kx, ky = permeability(0), permeability(1)
-    O.loadTmp(_SAVED, quiet=True)
-    material = Material(
-        Cxx=found["right"][0],
-        Cyy=found["top"][1],
-        Cxy=0.5 * (found["right"][1] + found["top"][0]),
-        bx=bx,
-        by=by,
-        M=M,
-        kx=kx,
-        ky=ky,
-    )
-    return material.asDict()
-
-
-def _settleWaves(steps=4000):
-    sediment.advance(steps)
-    return np.array(sediment.wallStresses())
-
-
-def _stiffness(wall, load, steps=4000):
-    """Changes of (sigma_x, sigma_y) over the strain that driving one wall inwards makes, the others fixed [Pa]."""
-    from yade import O
-
-    servo = sediment.engine("servo")
-    servo.fixedWalls, servo.drivenWalls, servo.driveVelocity = (
-        [name for name in ("left", "right", "bottom", "top") if name != wall],
-        [wall],
-        0.0,
-    )
-    axis = 0 if wall == "right" else 1
-    before, length = _settleWaves(), sediment.boxSize()[axis]
-    strain = (
-        load / sediment.grainBodies()[0].material.normalStiffness
-    )  # stiffnesses are of the order of k_n over the thickness, 1 m
-    servo.driveVelocity = strain * length / (steps * O.dt)
-    sediment.advance(steps)
-    servo.driveVelocity = 0.0
-    return ((_settleWaves() - before) / (1 - sediment.boxSize()[axis] / length)).tolist()
-
-
-def _pressurize(load, bulkModulus):
-    """(b_x, b_y, M [Pa]) from raising the pressure of all pores at the walls by ``load`` while the walls stand
-    still.
-    """
-    from yade.wrapper import SinglePhaseFlowEngine
-
-    servo = sediment.engine("servo")
-    servo.fixedWalls = ["left", "right", "bottom", "top"]
-    before, area = _settleWaves(), float(np.prod(sediment.boxSize()))
-    # Hardly any viscosity: only the state at the end counts.
-    flow = sediment.insertFluid(
-        SinglePhaseFlowEngine(
-            label="flow", maxSizeRatio=100, bulkModulus=bulkModulus, viscosity=1e-6, wallPressures=[load] * 4
-        )
-    )
-    after = _settleWaves()
-    bx, by = (after - before) / load
-    return float(bx), float(by), float(load * area / flow.waterIn)
-
-
-def permeability(axis):
-    """Permeability for flow along ``axis`` (0: x, 1: y) of the grains in the scene, which stand still [m^2]; the
-    engines are lost.
-    """
-    from yade import O
-
-    pressures = [math.nan] * 4
-    pressures[2 * axis : 2 * axis + 2] = [0.0, 1.0]
-    flow = alone(maxSizeRatio=100, bulkModulus=math.inf, viscosity=1e-3, wallPressures=pressures)
-    O.step()
-    low, high = (drainedAt(flow, axis, pressure) for pressure in (0.0, 1.0))
-    return float(1e-3 * flow.inflow()[("right", "top")[axis]] * (high - low) / sediment.boxSize()[1 - axis])
-
-
-# --- the tests -----------------------------------------------------------------------------------
 
 
 def _load(kind, material, load, bulkModulus, steps, run):

@@ -10,8 +10,7 @@ import math
 import numpy as np
 
 from capfrac.errors import CaseError
-from capfrac.scene import sediment
-from capfrac.values import asFloat, asInt, isPositive, shown
+from capfrac.values import asFloat, asInt, requirePositive, shown
 
 
 def column(place, radii):
@@ -63,13 +62,6 @@ def triangularLattice(columns, rows, radius, gap=0.0):
     return disks, (0.0, columns * a, 0.0, a * (1 + rise * (rows - 1)))
 
 
-def requirePositive(**values):
-    """Raise :class:`CaseError` that names the first of the values that is not a finite number > 0."""
-    for name, value in values.items():
-        if not isPositive(value):
-            raise CaseError(f"{name} = {shown(value)}, allowed: a finite number > 0")
-
-
 def _requireCounts(least, **counts):
     for name, value in counts.items():
         if (asInt(value) or 0) < least:
@@ -81,51 +73,3 @@ def _spacing(radius, gap):
     if asFloat(gap) is None or gap <= -2 * radius:
         raise CaseError(f"gap = {shown(gap)} m, allowed: > -2 radius = {-2 * radius:g} m")
     return 2 * radius + gap
-
-
-def alone(**attributes):
-    """Make the engine, with its ``attributes``, the only one of the scene: grains stand still, whatever forces they
-    have; returns it.
-    """
-    from yade import O
-    from yade.wrapper import SinglePhaseFlowEngine
-
-    engine = SinglePhaseFlowEngine(**{"timeIntegration": "implicit", **attributes})
-    O.engines = [engine]
-    return engine
-
-
-def fill(disks, box, **attributes):
-    """Put the disks into a new scene, with the engine :func:`alone`; returns the engine.
-
-    The scene is replaced. Throats have the constant shape factor 0.026 and steps are implicit unless ``attributes`` of
-    the engine say otherwise.
-    """
-    from yade import O
-
-    x, y, radii = np.array(disks, dtype=float).T
-    O.reset()
-    sediment.buildScene(
-        sediment.Sediment(grainCount=len(disks), rMin=float(radii.min()), rMax=float(radii.max())), x, y, radii, box
-    )
-    return alone(**{"conductanceLaw": "constantShape", **attributes})
-
-
-def advance(time, steps=1):
-    """Run ``steps`` equal steps that make up ``time`` [s]."""
-    from yade import O
-
-    O.dt = time / steps
-    sediment.advance(steps)
-
-
-def poresOf(engine):
-    """What the engine reports of its pores, as arrays."""
-    return {name: np.array(values) for name, values in engine.pores().items()}
-
-
-def drainedAt(flow, axis, pressure):
-    """Where along ``axis`` the pores lie that are held at ``pressure``: the mean of their centroids [m]."""
-    pores = poresOf(flow)
-    at = pores["pressure"] == pressure
-    return float(np.average(pores["xy"[axis]][at], weights=pores["volume"][at]))

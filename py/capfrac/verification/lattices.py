@@ -20,20 +20,17 @@ import math
 import numpy as np
 
 from capfrac.errors import CaseError
-from capfrac.verification.handmade import (
-    advance,
-    besideColumn,
-    fill,
-    poresOf,
-    requirePositive,
-    squareLattice,
-    triangularLattice,
-)
+from capfrac.lab.fluid import advance, fill, poresOf
+from capfrac.lab.orders import orders
+from capfrac.values import requirePositive
+from capfrac.verification.handmade import besideColumn, squareLattice, triangularLattice
 
 #: Shape factor of the law 'constantShape' [-].
 SHAPE = 0.026
+
 #: Gaps over the diameter, from overlaps to gaps that still count as contacts [-].
 GAPS = (-0.2, -0.1, -0.05, 0.0, 0.05, 0.1, 0.2, 0.3)
+
 #: Spacings of the pulse's lattices over sqrt(4 D t) [-], and D dt/a^2 of its steps [-]: time errs an eighth of what
 #: space does.
 SPACINGS, FOURIER = (0.4, 0.2, 0.1, 0.05), 0.02
@@ -49,14 +46,6 @@ def conductance(gap, radius, viscosity, shape=SHAPE):
     c = 1 + gap / (2 * radius)
     area = 4 * c - math.pi + (2 * (math.acos(c) - c * math.sqrt(1 - c * c)) if c < 1 else 0.0)
     return shape / viscosity * (area * radius**2) ** 2 / (2 * radius)
-
-
-def orders(errors):
-    """Order of convergence from each pair of errors, the second at half the step of the first; NaN where one is 0."""
-    return [math.log2(a / b) if a > 0 and b > 0 else math.nan for a, b in zip(errors, errors[1:])]
-
-
-# --- permeability --------------------------------------------------------------------------------
 
 
 def permeabilities(radius=1e-3, viscosity=1e-3, pressure=1e3, gaps=GAPS):
@@ -131,9 +120,6 @@ def _gradient(pores, axis, start, period, count):
 
 
 _MEASURES = {"square": _square, "triangular": _triangular, "across": _across}
-
-
-# --- a pressure that spreads ---------------------------------------------------------------------
 
 
 def pulseProfile(x, length):

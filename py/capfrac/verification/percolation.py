@@ -176,6 +176,7 @@ def _massAndRadius(width, samples, seed, run):
             network = rigid.squareLattice(width, width, (seed, width, k), "centre")
             start = int(np.flatnonzero(network.gas)[0])
             distance = np.hypot(network.poreX - network.poreX[start], network.poreY - network.poreY[start])
+            # 1: where it began
             rows.append(
                 {
                     kind: (
@@ -186,7 +187,7 @@ def _massAndRadius(width, samples, seed, run):
                     ).tolist()
                     for kind in DIMENSIONS
                 }
-            )  # 1: where it began
+            )
         return rows
 
     rows, batch = [], max(1, _BATCH // (width * width))

@@ -7,7 +7,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from capfrac.lab.figures import tidy
-from capfrac.plot.figures import COLOURS, newFigure, saveFigure
+from capfrac.plot.painter import COLOURS
+from capfrac.plot.sheet import newFigure, saveFigure
 from capfrac.run import rigid
 
 #: Width and height of the network that is shown.

@@ -1,52 +1,27 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """What the tests of water leave in their run folders: see :mod:`capfrac.lab.reports`."""
 
-from capfrac.lab import diffusion, diffusion_figures, undrained
-from capfrac.verification import closedforms, consolidation, figures, stability
+from capfrac.lab.reports import _withoutTable
+from capfrac.verification import (
+    closedform_figures,
+    closedforms,
+    consolidation,
+    contact_figures,
+    contacts,
+    figures,
+    percolation,
+    percolation_figures,
+    stability,
+    toughness,
+    toughness_figures,
+)
 
 
 def _closedForms(sample, own, run, base):
     found = closedforms.checkClosedForms(sample, run=run, **own)
     run.table("closed-forms", closedforms.table(found))
-    run.picture("closed-forms", lambda path: diffusion_figures.drawClosedForms(found, path))
+    run.picture("closed-forms", lambda path: closedform_figures.drawClosedForms(found, path))
     return closedforms.summary(found)
-
-
-def _diffusion(sample, own, run, base):
-    found = diffusion.diffusion(sample, run=run, **own)
-    run.table("rates", {f"{name} [-]": values for name, values in found["rates"].items()})
-    run.table("profiles", _columns(found["profiles"], lambda p: p, ("xi", "pressure", "expected", "expectedOfSteady")))
-    run.table("layers", _columns(found["profiles"], lambda p: p["layers"], ("xi", "pressure", "expected")))
-    run.picture("figure11", lambda path: diffusion_figures.drawRates(found, path))
-    run.picture("figure12", lambda path: diffusion_figures.drawProfiles(found, path))
-    if found["schemes"]:
-        run.picture("explicit", lambda path: diffusion_figures.drawSchemes(found, path))
-        found["schemes"] = {
-            key: value
-            for key, value in found["schemes"].items()
-            if key not in ("rates", "profiles", "implicitProfiles")
-        }
-    return {key: value for key, value in found.items() if key not in ("rates", "profiles")}
-
-
-def _columns(profiles, of, names):
-    """The profiles one below the other: columns of a table."""
-    tau = [p["tau"] for p in profiles for _ in of(p)["xi"]]
-    return {"tau [-]": tau, **{f"{name} [-]": [value for p in profiles for value in of(p)[name]] for name in names}}
-
-
-def _undrained(sample, own, run, base):
-    found = undrained.undrained(sample, run=run, **own)
-    columns = ("strain", "total", "dry", "pressure", "effective")
-    run.table("undrained", {f"{name} [{'-' if name == 'strain' else 'Pa'}]": found[name] for name in columns})
-    run.picture("figure13", lambda path: figures.drawUndrained(found, path))
-    if "compressible" in found:
-        run.table(
-            "compressible",
-            {f"{name} [{'-' if name == 'strain' else 'Pa'}]": found["compressible"][name] for name in columns},
-        )
-        found["compressible"] = {key: value for key, value in found["compressible"].items() if key not in columns}
-    return {key: value for key, value in found.items() if key not in columns}
 
 
 def _consolidation(kind, draw):
@@ -87,11 +62,56 @@ def _stability(sample, own, run, base):
     }
 
 
+def _contacts(sample, own, run, base):
+    found = contacts.checkContacts(sample, run)
+    for name, one in found.items():
+        run.table(name, one["table"])
+    run.picture("contacts", lambda path: contact_figures.drawContacts(found, path))
+    return {name: _withoutTable(one) for name, one in found.items()}
+
+
+def _percolation(sample, own, run, base):
+    found = percolation.percolation(**own, seed=sample.seed, rMin=sample.rMin, rMax=sample.rMax, run=run)
+    run.table("percolation", percolation.table(found))
+    run.table(
+        "radius",
+        {
+            "radius [pores]": found["radius"]["free"]["radius"],
+            **{f"{kind} mass [pores]": found["radius"][kind]["mass"] for kind in percolation.DIMENSIONS},
+        },
+    )
+    run.picture("percolation", lambda path: percolation_figures.drawPercolation(found, path))
+    return found
+
+
+def _toughness(sample, own, run, base):
+    found = toughness.toughness(sample, run=run, **own)
+    for kind in ("lattice", "samples"):
+        tests = found[kind]["tests"]
+        run.table(
+            kind,
+            {
+                **{f"{name} [m]": [t[name] for t in tests] for name in ("halfLength", "radius", "width")},
+                "pressure [Pa]": [t["pressure"] for t in tests],
+                "firstBond [Pa]": [t["firstBond"] for t in tests],
+                "inletPores": [t["inletPores"] for t in tests],
+                **(
+                    {"expected [Pa]": [t["expected"] for t in tests]}
+                    if kind == "lattice"
+                    else {"seed": [t["seed"] for t in tests]}
+                ),
+            },
+        )
+    run.picture("toughness", lambda path: toughness_figures.drawToughness(found, path))
+    return found
+
+
 #: The function of each test.
 REPORTS = {
+    "contacts": _contacts,
+    "percolation": _percolation,
+    "toughness": _toughness,
     "closed-forms": _closedForms,
-    "diffusion": _diffusion,
-    "undrained": _undrained,
     "terzaghi": _consolidation("terzaghi", figures.drawTerzaghi),
     "mandel": _consolidation("mandel", figures.drawMandel),
     "stability": _stability,

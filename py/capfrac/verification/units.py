@@ -23,9 +23,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from capfrac.lab.compaction import prepareSample
+from capfrac.lab.fluid import alone
 from capfrac.lab.run import LabRun
 from capfrac.scene import sediment
-from capfrac.verification.handmade import alone, requirePositive, triangularLattice
+from capfrac.values import requirePositive
+from capfrac.verification.handmade import triangularLattice
 
 #: Vertical strain of the compressions [-], steps of time on the way, and rows of the curves.
 STRAIN, STEPS, ROWS = 1e-3, 1000, 20
@@ -71,7 +73,8 @@ def checkUnits(sample=None, bulkModulus=1e7, viscosity=1e-3, systems=SYSTEMS, ru
     ``sample``: grains, contacts [SI]; the fluid's ``bulkModulus`` [Pa] and ``viscosity`` [Pa s]. For each of
     :data:`PROBLEMS`: ``curves`` by name of the system (rows of dimensionless numbers: for ``diffusion`` the pores'
     pressures over the one that was set, otherwise the fluid's mean pressure and the stress on the top wall, over K_f),
-    and ``differences``, the largest from the SI's over the largest number. :class:`CaseError` for impossible values.
+    and ``differences``, the largest from the SI's over the largest number. :class:`CaseError` for
+    impossible values.
     """
     sample = sample or defaultSample()
     run = run or LabRun("units", {})

@@ -8,9 +8,10 @@
 """
 
 from capfrac.results.fracture.graph import SHORTEST, Branch, Fracture, findFracture
+from capfrac.results.fracture.measure import measureFracture, orientationOfRuns, tipAdvance
 from capfrac.results.fracture.orientation import axialMean, orientationVector, rayleighTest, rose, rotationTest
 from capfrac.results.fracture.passage import Passage, Way, findPassage
-from capfrac.results.fracture.report import FILES, measureFracture, orientationOfRuns, reportRun, tipAdvance
+from capfrac.results.fracture.report import FILES, reportRun
 from capfrac.results.fracture.stress import GrainStress, loadStress, principal, smoothField, takeStress
 from capfrac.results.fracture.throats import openedThroats
 

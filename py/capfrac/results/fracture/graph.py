@@ -21,17 +21,20 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from capfrac.errors import CaseError
+from capfrac.results.fracture.inlet import inletNodes
 from capfrac.results.fracture.throats import cellCentres, gapsOf, mergeGap, openedThroats
-from capfrac.results.snapshot import WALL_AXIS, WALL_NAMES
 
 #: Length of the shortest branch that counts, in mean grain diameters [-]: a pore of this model is one or two across.
 SHORTEST = 4.0
+
 #: Growth of a gap from which a throat is cracked though its bond may hold, in mean radii [-]. Bonds break at a stretch
 #: of 2 chi gamma w/k_n, 0.067 mean radii in the softest of the shipped cases.
 CRACKED = 0.1
+
 #: Share of cracked throats on a branch, from which it is one of the fracture and not of capillary invasion [-]; as in
 #: mode.RULE_BY_THROATS.
 MOST_OPENED = 0.5
+
 #: How much longer a way through a bridge is taken to be than one through the fracture [-].
 _DETOUR = 20.0
 
@@ -136,37 +139,6 @@ def findFracture(now, start, openingThreshold=0.01, shortest=SHORTEST):
         found.branches.append(_branch(tip, root, distance, parent, via, place, kinds))
     found.branches.sort(key=lambda branch: (-branch.length, tuple(branch.tip)))
     return found
-
-
-def _inletPoints(now):
-    if len(now.inletPoints) or not (now.inletWall and now.inletTo > now.inletFrom):
-        return now.inletPoints
-    axis = WALL_AXIS[now.inletWall]
-    along = np.linspace(now.inletFrom, now.inletTo, max(2, int((now.inletTo - now.inletFrom) / float(np.mean(now.r)))))
-    points = np.empty((len(along), 2))
-    points[:, axis], points[:, 1 - axis] = now.box[WALL_NAMES.index(now.inletWall)], along
-    return points
-
-
-def inletMiddle(now):
-    """(2,) middle of the inlet [m]; None for a snapshot without one."""
-    points = _inletPoints(now)
-    return points.mean(axis=0) if len(points) else None
-
-
-def inletNodes(now, place):
-    """Rows of the gas cells at the inlet: of each of its points, or points along its stretch of wall, the nearest
-    within two mean diameters.
-
-    (``cellInlet`` is no help: it is the engine's mark of gas that hangs on the inlet, and spreads with the gas wherever
-    edges flip.)
-    """
-    points, diameter = _inletPoints(now), 2 * float(np.mean(now.r))
-    if len(points) == 0 or len(place) == 0:
-        return np.array([], dtype=int)
-    away = np.linalg.norm(place[None] - points[:, None], axis=2)
-    nearest = away.argmin(axis=1)
-    return np.unique(nearest[away.min(axis=1) <= 2 * diameter])
 
 
 def _distances(place, ends, kinds, inlet):

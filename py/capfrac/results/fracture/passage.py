@@ -24,9 +24,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
 from capfrac.errors import CaseError
-from capfrac.results.fracture.graph import inletNodes
+from capfrac.results.fracture.inlet import inletNodes
 from capfrac.results.fracture.throats import cellCentres, gapsOf, meanRadii, mergeGap, signedAreas
-from capfrac.results.snapshot import WALL_NAMES
+from capfrac.results.moment import WALL_NAMES
 
 #: Kinds of edges between two cells of gas.
 OPENED, PORE, RIGID = "opened", "pore", "rigid"

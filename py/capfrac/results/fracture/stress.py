@@ -117,9 +117,8 @@ def _contactMoments(shot):
             if body in wallOf:
                 onWalls[wallOf[body]] += push[wallOf[body] // 2]
             else:
-                moments[rowOf[body]] -= np.outer(
-                    push, (other if atWall else point) - end
-                )  # a wall is reached at its foot
+                # a wall is reached at its foot
+                moments[rowOf[body]] -= np.outer(push, (other if atWall else point) - end)
     return moments, onWalls
 
 

@@ -4,7 +4,7 @@
 import numpy as np
 
 from capfrac.errors import CaseError
-from capfrac.results.snapshot import WALL_AXIS, WALL_NAMES
+from capfrac.results.moment import WALL_AXIS, WALL_NAMES
 
 
 def gapsOf(snapshot, pairs):
