@@ -24,7 +24,7 @@ namespace {
 		return 0.5 * twice;
 	}
 
-	bool holds(const std::vector<Vec2>& convex, Vec2 point)
+	bool holds(const CellPolygon& convex, Vec2 point)
 	{
 		for (std::size_t k = 0; k < convex.size(); ++k)
 			if (cross(convex[(k + 1) % convex.size()] - convex[k], point - convex[k]) < 0) return false;
