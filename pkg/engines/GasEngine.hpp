@@ -59,7 +59,8 @@ private:
 
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GasEngine,PoreNetworkEngine,R"""(What :yref:`GasInvasionEngine` and :yref:`ViscousInvasionEngine` have both: the gas, its
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GasEngine,PoreNetworkEngine,R"""(What :yref:`GasInvasionEngine` and
+:yref:`ViscousInvasionEngine` have both: the gas, its
 supply, its inlet, and the pressure levels. Use one of these two; this class by itself moves nothing.)""",
 		((Real,interfacialTension,0.05,Attr::triggerPostLoad,
 			"Interfacial tension $\\gamma$ of gas and water [N/m], > 0."))
@@ -154,14 +155,16 @@ supply, its inlet, and the pressure levels. Use one of these two; this class by 
 			"Check after each avalanche that no throat opened below its entry pressure, that all gas hangs "
 			"on the inlet or is trapped, and that every pore is counted once; throws otherwise."))
 		((Real,filmConductance,0,Attr::triggerPostLoad,
-			"What trapped water loses by films on the grains per pressure difference, $K$ [m³/(Pa·s)], >= 0; 0 locks "
-			"it. In drained water (with :yref:`trapping<GasInvasionEngine.trapping>`) a cluster loses $q=K(P_c-P_e)$, "
-			"$P_e$ its lowest entry pressure, and has the pressure $p_g-P_e$ (>= waterPressure); in viscous water "
-			"each of its pores loses K times its excess over waterPressure."))
+			"What trapped water loses by films on the grains per pressure difference, $K$ [m³/(Pa·s)], >= "
+			"0; 0 locks it. In drained water (with :yref:`trapping<GasInvasionEngine.trapping>`) a cluster "
+			"loses $q=K(P_c-P_e)$, $P_e$ its lowest entry pressure, and has the pressure $p_g-P_e$ (>= "
+			"waterPressure); in viscous water each of its pores loses K times its excess over "
+			"waterPressure."))
 		((Real,fluidDensity,0,Attr::triggerPostLoad,
 			"Density of the water [kg/m³], >= 0; see :yref:`gasDensity<GasEngine.gasDensity>`."))
 		((Vector2r,gravity,Vector2r::Zero(),Attr::triggerPostLoad,"Gravity on the fluids [m/s²]."))
-		((capfrac::Saved<GrainCensus>,census,,(Attr::hidden|Attr::readonly),"What the grains were at the start."))
+		((capfrac::Saved<GrainCensus>,census,,(Attr::hidden|Attr::readonly),
+			"What the grains were at the start."))
 		,
 		,
 		.add_property("programPosition",+[](GasEngine& e) { return e.invasion().levels.programPosition; },
@@ -174,7 +177,8 @@ supply, its inlet, and the pressure levels. Use one of these two; this class by 
 			"Gas pressure when gas first reached the outlet wall [Pa]; NaN before.")
 		.add_property("breakthroughIter",+[](GasEngine& e) { return e.invasion().breakthrough.iteration; },
 			"Iteration of the breakthrough [-]; -1 before.")
-		.add_property("breakthroughDisplacement",+[](GasEngine& e) { return e.census->breakthrough.displacement; },
+		.add_property("breakthroughDisplacement",
+			+[](GasEngine& e) { return e.census->breakthrough.displacement; },
 			"Largest displacement of a loaded grain over its radius at the breakthrough [-]. A "
 			"grain is loaded that bore load at the start and bears some now.")
 		.add_property("breakthroughBroken",+[](GasEngine& e) { return e.census->breakthrough.broken; },

@@ -21,7 +21,8 @@ protected:
 
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GasInvasionEngine,GasEngine,R"""(Gas under a slowly rising pressure enters a water-filled, deformable sediment: capillary invasion,
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(GasInvasionEngine,GasEngine,R"""(Gas under a slowly rising pressure enters a
+water-filled, deformable sediment: capillary invasion,
 fracture, or both.
 
 Every step: the network follows the grains (:yref:`PoreNetworkEngine`); gas that hangs on the inlet advances through

@@ -13,7 +13,8 @@ public:
 	// clang-format off
 	YADE_CLASS_BASE_DOC(Ig2_Wall_Sphere_ScGeom6D,Ig2_Wall_Sphere_ScGeom,
 		"Contact of a grain with a wall as a :yref:`ScGeom6D`, so that "
-		":yref:`Law2_ScGeom6D_CohFrictPhys_CohesionMoment` serves walls, too, and grains can be bonded to them. "
+		":yref:`Law2_ScGeom6D_CohFrictPhys_CohesionMoment` serves walls, too, and grains can be bonded to "
+		"them. "
 		"YADE itself has this for facets only.");
 	// clang-format on
 	FUNCTOR2D(Wall, Sphere);

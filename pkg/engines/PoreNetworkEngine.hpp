@@ -141,9 +141,11 @@ compression.)""",
 		((Real,waterPressure,0,Attr::triggerPostLoad,
 			"Pressure of the (drained) water [Pa]. Stresses on the walls are total stresses; with 0 they "
 			"are effective stresses of the water-filled sample."))
-		((capfrac::Saved<SceneReader>,reader,,(Attr::hidden|Attr::readonly),"The grains and walls that are followed."))
+		((capfrac::Saved<SceneReader>,reader,,(Attr::hidden|Attr::readonly),
+			"The grains and walls that are followed."))
 		((capfrac::Saved<capfrac::PoreNetwork>,network,,(Attr::hidden|Attr::readonly),"State of the network."))
-		((capfrac::Saved<capfrac::FixedPressures>,fixed,,(Attr::hidden|Attr::readonly),"State of fluids at rest."))
+		((capfrac::Saved<capfrac::FixedPressures>,fixed,,(Attr::hidden|Attr::readonly),
+			"State of fluids at rest."))
 		,
 		guardAttributes();
 		,

@@ -17,6 +17,7 @@ public:
 	boost::python::dict pyInflow();
 	Real pyTimeStepLimit();
 	void pySetCellPressures(const std::vector<Real>& pressures) override;
+	std::vector<Real> wallInflow() const { return { flow->record.inflow.begin(), flow->record.inflow.end() }; }
 
 protected:
 	capfrac::FluidModel& model() override { return *flow; }
@@ -30,7 +31,9 @@ private:
 
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SinglePhaseFlowEngine,PoreNetworkEngine,R"""(One viscous, compressible or incompressible fluid between grains that move (Eqs. 8 to 14 of
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(SinglePhaseFlowEngine,PoreNetworkEngine,
+	R"""(One viscous, compressible or incompressible fluid between grains that move (Eqs. 8 to 14
+of
 [Jain2008]_).
 
 Every step the network follows the grains (:yref:`PoreNetworkEngine`), and fluid flows through every throat with the
@@ -55,12 +58,15 @@ otherwise. Place it after :yref:`InteractionLoop` and before :yref:`NewtonIntegr
 		,
 		.add_property("massDefect",+[](SinglePhaseFlowEngine& e) { return e.flow->record.massDefect; },
 			"Sum of in - out - stored over all steps [m³]; round-off.")
-		.add_property("wallInflow",+[](SinglePhaseFlowEngine& e) { return std::vector<Real>(e.flow->record.inflow.begin(), e.flow->record.inflow.end()); },
+		.add_property("wallInflow",
+			+[](SinglePhaseFlowEngine& e) { return e.wallInflow(); },
 			"Flow into the sample through the left, right, bottom and top wall in the last step [m³/s] "
 			"|yupdate|.")
-		.add_property("solverIterations",+[](SinglePhaseFlowEngine& e) { return e.flow->record.solverIterations; },
+		.add_property("solverIterations",
+			+[](SinglePhaseFlowEngine& e) { return e.flow->record.solverIterations; },
 			"Iterations of the linear solver in the last step [-].")
-		.add_property("nFactorizations",+[](SinglePhaseFlowEngine& e) { return e.flow->record.nFactorizations; },
+		.add_property("nFactorizations",
+			+[](SinglePhaseFlowEngine& e) { return e.flow->record.nFactorizations; },
 			"Factorizations of the linear solver so far [-].")
 		.def("pores",&SinglePhaseFlowEngine::pyPores,
 			"The pores as a dict of lists: ``x``, ``y`` (centroid of the void [m]), ``pressure`` [Pa], "

@@ -27,7 +27,8 @@ private:
 
 public:
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ViscousInvasionEngine,GasEngine,R"""(Gas enters a deformable sediment whose water is viscous and compressible, and
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR_PY(ViscousInvasionEngine,GasEngine,R"""(Gas enters a deformable sediment whose
+water is viscous and compressible, and
 so is the gas: both are solved for, and both load the grains.
 
 Water has to flow to the outlet, which is held at :yref:`waterPressure<PoreNetworkEngine.waterPressure>` (or what
@@ -41,7 +42,8 @@ as :yref:`GasInvasionEngine`, whose water is drained: it is the limit of slow in
 		((Real,maxFilling,0.5,Attr::triggerPostLoad,
 			"Share of a pore that gas may fill in one part of a time step [-], > 0: a long step is "
 			"divided."))
-		((capfrac::Saved<capfrac::ViscousInvasion>,viscous,,(Attr::hidden|Attr::readonly),"State of both fluids."))
+		((capfrac::Saved<capfrac::ViscousInvasion>,viscous,,(Attr::hidden|Attr::readonly),
+			"State of both fluids."))
 		,
 		guardAttributes();
 		,
@@ -59,9 +61,11 @@ as :yref:`GasInvasionEngine`, whose water is drained: it is the limit of slow in
 			"Not with wallFluxes or pointFluxes, nor below a pressure that is prescribed elsewhere.")
 		.add_property("massDefect",+[](ViscousInvasionEngine& e) { return e.viscous->flowRecord.massDefect; },
 			"Sum of in - out - stored over all steps [m³]; round-off.")
-		.add_property("solverIterations",+[](ViscousInvasionEngine& e) { return e.viscous->flowRecord.solverIterations; },
+		.add_property("solverIterations",
+			+[](ViscousInvasionEngine& e) { return e.viscous->flowRecord.solverIterations; },
 			"Iterations of the linear solver in the last step [-].")
-		.add_property("nFactorizations",+[](ViscousInvasionEngine& e) { return e.viscous->flowRecord.nFactorizations; },
+		.add_property("nFactorizations",
+			+[](ViscousInvasionEngine& e) { return e.viscous->flowRecord.nFactorizations; },
 			"Factorizations of the linear solver so far [-].")
 		.def("pores",&ViscousInvasionEngine::pyPores,
 			"The pores as a dict of lists: ``x``, ``y`` (centroid of the void [m]), ``pressure`` [Pa], "

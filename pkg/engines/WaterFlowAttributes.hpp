@@ -23,7 +23,8 @@
 		((Real,halvingForce,1,Attr::triggerPostLoad, \
 			"Law ``'parallelPlates'``: contact force that halves the aperture [N], > 0.")) \
 		((std::vector<Real>,wallPressures,std::vector<Real>(4,NaN),Attr::triggerPostLoad, \
-			"Pressure prescribed in the pores along the left, right, bottom and top wall [Pa]; NaN: none.")) \
+			"Pressure prescribed in the pores along the left, right, bottom and top wall [Pa]; NaN: "\
+			"none.")) \
 		((std::vector<Real>,wallFluxes,std::vector<Real>(4,0),Attr::triggerPostLoad, \
 			"Inflow prescribed through the left, right, bottom and top wall [m³/s], shared by the length " \
 			"of wall of each pore; not where a pressure is prescribed.")) \
@@ -36,8 +37,8 @@
 			"grain changes its radius, $r=r_0\\,(1-p/(3K_s))$ (Eq. 10), $r_0$ being its radius at the " \
 			"initial :yref:`waterPressure<PoreNetworkEngine.waterPressure>` and p counted from that.")) \
 		((Real,closedPore,1e-3,Attr::triggerPostLoad, \
-			"A pore smaller than this share of the smallest grain's area is joined to its neighbour across " \
-			"the widest throat: a pore that grains close pushes its fluid there [-], > 0.")) \
+			"A pore smaller than this share of the smallest grain's area is joined to its neighbour " \
+			"across the widest throat: a pore that grains close pushes its fluid there [-], > 0.")) \
 // clang-format on
 
 namespace yade {
@@ -64,8 +65,8 @@ template <class Engine> capfrac::FlowOptions flowOptionsOf(const Engine& engine)
 template <class Engine> auto flowAttributesOf(Engine& engine)
 {
 	return std::tie(engine.bulkModulus, engine.viscosity, engine.conductanceLaw, engine.conductanceFactor,
-	        engine.residualAperture, engine.halvingForce, engine.wallPressures, engine.wallFluxes, engine.pointPressures,
-	        engine.pointFluxes, engine.grainBulkModulus, engine.closedPore);
+	        engine.residualAperture, engine.halvingForce, engine.wallPressures, engine.wallFluxes,
+	        engine.pointPressures, engine.pointFluxes, engine.grainBulkModulus, engine.closedPore);
 }
 
 } // namespace yade

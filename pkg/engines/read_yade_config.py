@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 """Prints what the build must know of an installed YADE, as a CMake list.
 
 usage: read_yade_config.py PREFIX [SUFFIX]
@@ -28,7 +29,10 @@ def main(prefix, suffix=""):
     # Debian builds YADE in four precisions, side by side; capfrac is for double.
     double = [path for path in found if configs[path]["highPrecisionBits"] == 64]
     if len(double) != 1:
-        sys.exit(f"{len(double)} YADEs of double precision below {prefix} (found: {', '.join(found)}); choose one with YADE_SUFFIX")
+        names = ", ".join(found)
+        sys.exit(
+            f"{len(double)} YADEs of double precision below {prefix} (found: {names}); choose one with YADE_SUFFIX"
+        )
     path, config = double[0], configs[double[0]]
     library_folder = os.path.dirname(os.path.dirname(os.path.dirname(path)))
     print(";".join([config["version"], library_folder, ",".join(config["features"]), config["suffix"]]))

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
 # Console helpers shared by the scripts: plain messages, refusals, progress.
 # Sourced, never run.
 
