@@ -20,6 +20,7 @@ import capfrac
 capfrac.load_engines()
 
 from yade import O
+from yade.wrapper import RateSupply
 
 from capfrac import history, injection, sediment
 
@@ -53,10 +54,8 @@ def inject(volume, start, rise, folder, pores):
     gas = injection.startInjection(
         start, increment=1e3, max=250e3, pores=pores, gasLaw="ideal", invasionInterval=50, historyInterval=20
     )
-    gas.reservoirVolume = volume * gas.initialVoid
-    gas.gasRate = 1e-6
-    gas.gasRate *= rise / gas.risePerPeriod()  # in proportion
-    gas.gasControl = "rate"
+    gas.supply = RateSupply(rate=1e-6, reservoirVolume=volume * gas.initialVoid)
+    gas.supply.rate *= rise / gas.risePerPeriod()  # in proportion
     begun = O.time
     while gas.breakthroughIter < 0 and gas.gasPressure < 250e3:
         O.run(200, True)
@@ -73,13 +72,13 @@ def inject(volume, start, rise, folder, pores):
     found = {
         "highest": max([*course["gasPressure"], *gas.events()["gasPressure"]]),
         "breakthrough": gas.breakthroughPressure,
-        "rate": gas.gasRate,
+        "rate": gas.supply.rate,
         "supplied": ledger["supplied"],
         "ledger": ledger["error"],
         "lowestAfter": min(course["gasPressure"][course["gasPressure"].index(max(course["gasPressure"])) :]),
     }
     print(
-        f"dead volume {volume} times the pores, {gas.gasRate * 1e6:.3g} mg/s: highest pressure"
+        f"dead volume {volume} times the pores, {gas.supply.rate * 1e6:.3g} mg/s: highest pressure"
         f" {found['highest'] / 1e3:.1f} kPa, at the top at {found['breakthrough'] / 1e3:.1f} kPa, down to"
         f" {found['lowestAfter'] / 1e3:.1f} kPa; error of the mass {found['ledger']:.0e}"
     )

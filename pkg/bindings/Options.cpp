@@ -30,6 +30,14 @@ namespace {
 
 	std::string textOf(const py::object& text) { return py::extract<std::string>(text)(); }
 
+	GasControl gasControlFromName(const std::string& name)
+	{
+		if (name == "pressure") return GasControl::pressure;
+		if (name == "rate") return GasControl::rate;
+		if (name == "reservoir") return GasControl::reservoir;
+		refuseAttribute("gasControl", "'" + name + "'", "'pressure', 'rate', 'reservoir'");
+	}
+
 } // namespace
 
 void OptionTable::read(const py::dict& given) const
@@ -94,8 +102,8 @@ void addGas(OptionTable& table, GasOptions& o, double& gasPressure)
 	table.add("inletTo", o.inlet.to);
 	table.add("outletWall", o.outletWall);
 	table.add("gasLaw", [&o](const py::object& name) {
-		o.supply.lawName = textOf(name);
-		o.supply.gas.law = gasLawFromName(o.supply.lawName);
+		o.supply.gas.law = gasLawFromName(textOf(name));
+		o.supply.lawName = "'" + textOf(name) + "'";
 	});
 	table.add("gasMolarMass", o.supply.gas.molarMass);
 	table.add("gasTemperature", o.supply.gas.temperature);

@@ -26,20 +26,18 @@ capfrac::GasModel& GasEngine::invasion()
 
 capfrac::SupplyOptions GasEngine::supplyOptions() const
 {
-	capfrac::SupplyOptions options;
-	options.control = capfrac::gasControlFromName(gasControl);
-	options.rate = gasRate, options.reservoirVolume = reservoirVolume, options.pressureDatum = pressureDatum;
-	options.lawName = gasLaw;
-	options.gas = { capfrac::gasLawFromName(gasLaw), gasMolarMass, gasTemperature, gasDeviation, 1, {}, {} };
-	for (const auto& pair : gasTable)
-		options.gas.pressures.push_back(pair[0]), options.gas.densities.push_back(pair[1]);
+	if (!gasLaw) capfrac::refuseAttribute("gasLaw", "None", "an object such as IdealGas()");
+	if (!supply) capfrac::refuseAttribute("supply", "None", "an object such as RateSupply()");
+	auto options = supply->options();
+	options.gas = gasLaw->equation(), options.lawName = gasLaw->getClassName();
+	options.pressureDatum = pressureDatum;
 	return options;
 }
 
 capfrac::LevelOptions GasEngine::levelOptions() const
 {
-	return { pressureIncrement, maxPressure, pressureProgram, unbalancedTolerance, restDisplacement, minLevelSteps,
-		maxLevelSteps, stepsBetweenInvasions() };
+	return { pressureIncrement, maxPressure, supply->turningPoints(), unbalancedTolerance, restDisplacement,
+		minLevelSteps, maxLevelSteps, stepsBetweenInvasions() };
 }
 
 capfrac::GasOptions GasEngine::gasOptions() const
@@ -73,7 +71,13 @@ void GasEngine::tell()
 	auto& gas = invasion();
 	gas.gas = gasOptions();
 	gas.gasPressure = gasPressure;
-	gas.levels.follow(gas.gas.levels, gas.gas.supply, gasPressure, prepared());
+	gas.levels.follow(gas.gas.levels, gas.gas.supply, gasPressure);
+}
+
+const capfrac::Levels& GasEngine::levelsNow()
+{
+	tell();
+	return invasion().levels;
 }
 
 void GasEngine::show()
@@ -159,37 +163,39 @@ void GasEngine::recordHistory()
 
 Real GasEngine::risePerPeriod()
 {
-	if (gasRate == 0) return 0;
 	const auto& gas = invasion();
-	const Real slope = capfrac::gasDensityDerivative(gas.gas.supply.gas, gasPressure + pressureDatum);
-	return gasRate * periodOfGrains(*scene, *reader) / (slope * (reservoirVolume + gas.connectedGas(*network)));
+	const auto& from = gas.gas.supply;
+	if (from.rate == 0) return 0;
+	const Real slope = capfrac::gasDensityDerivative(from.gas, gasPressure + from.pressureDatum);
+	return from.rate * periodOfGrains(*scene, *reader)
+	        / (slope * (from.reservoirVolume + gas.connectedGas(*network)));
 }
 
 /// Two ways to ask too much of a quasi-static model; neither is an error.
 void GasEngine::warnOfSupply()
 {
 	const auto& gas = invasion();
-	const auto& supply = gas.gas.supply;
-	if (!gas.drained() || !supply.pressureFollows()) return;
+	const auto& from = gas.gas.supply;
+	if (!gas.drained() || !from.pressureFollows()) return;
 	const Real threshold = math::max(gas.capillaryPressure(), gas.nextEntryPressure(*network));
 	if (!std::isfinite(threshold)) return; // the gas is everywhere
 	const Real entered = waterPressure + threshold;
-	if (supply.gas.law == capfrac::GasLaw::tabulated && entered + pressureDatum > supply.gas.pressures.back()) {
-		LOG_WARN("gasTable ends at " << supply.gas.pressures.back() << " Pa, the gas enters at "
-		                             << entered + pressureDatum
-		                             << " Pa (absolute): the run will stop at the end of the table");
+	if (from.gas.law == capfrac::GasLaw::tabulated && entered + pressureDatum > from.gas.pressures.back()) {
+		LOG_WARN("TabulatedGas.table ends at " << from.gas.pressures.back() << " Pa, the gas enters at "
+		                                       << entered + pressureDatum
+		                                       << " Pa (absolute): the run will stop at the end of the table");
 		return;
 	}
 	const Real rise = risePerPeriod();
-	if (supply.control == capfrac::GasControl::rate && rise > 1e-3 * threshold)
-		LOG_WARN("gasRate = "
-		        << gasRate << " kg/s raises the pressure by " << rise
+	if (from.control == capfrac::GasControl::rate && rise > 1e-3 * threshold)
+		LOG_WARN("RateSupply.rate = "
+		        << from.rate << " kg/s raises the pressure by " << rise
 		        << " Pa within a period of a grain, more than a thousandth of the " << threshold
 		        << " Pa at which the gas enters: the grains do not stay near rest. A rate of up to "
-		        << gasRate * 1e-3 * threshold / rise << " kg/s, or a larger reservoirVolume, lets them");
-	const Real volume = reservoirVolume + gas.connectedGas(*network);
+		        << from.rate * 1e-3 * threshold / rise << " kg/s, or a larger reservoirVolume, lets them");
+	const Real volume = from.reservoirVolume + gas.connectedGas(*network);
 	const Real pore = network->books.initialVoid / network->domains.count;
-	if (supply.densityAt(entered) * volume < supply.densityAt(waterPressure) * (volume + pore))
+	if (from.densityAt(entered) * volume < from.densityAt(waterPressure) * (volume + pore))
 		LOG_WARN("the gas behind the inlet, "
 		        << volume << " m³ with the reservoir, cannot fill a mean pore of " << pore
 		        << " m³ before its pressure falls to the water's: each pore will fill at "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "GasLaws.hpp"
+#include "GasSupplies.hpp"
 #include "GrainCensus.hpp"
 #include "PoreNetworkEngine.hpp"
 
@@ -25,6 +27,8 @@ public:
 	boost::python::dict pyDisplacements(bool atBreakthrough);
 	Real pyNextEntryPressure();
 	void pySetCellPressures(const std::vector<Real>& pressures) override;
+	/// The levels, as what the supply prescribes now makes them: nothing calls when its attributes change.
+	const capfrac::Levels& levelsNow();
 
 	/// The model, as both engines of gas see it; refuses for this class, which has none.
 	virtual capfrac::GasModel& invasion();
@@ -42,8 +46,7 @@ protected:
 	auto gasAttributes()
 	{
 		return std::tie(interfacialTension, contactAngle, entryLaw, gasPressure, pressureIncrement, maxPressure,
-		        pressureProgram, gasLaw, gasMolarMass, gasTemperature, gasDeviation, gasTable, pressureDatum,
-		        gasControl, gasRate, reservoirVolume, historyInterval, unbalancedTolerance, minLevelSteps,
+		        gasLaw, supply, pressureDatum, historyInterval, unbalancedTolerance, minLevelSteps,
 		        maxLevelSteps, restDisplacement, inletWall, outletWall, filmConductance, gasDensity,
 		        fluidDensity, gravity, openingThreshold);
 	}
@@ -77,38 +80,18 @@ supply, its inlet, and the pressure levels. Use one of these two; this class by 
 		((Real,maxPressure,0,Attr::triggerPostLoad,
 			"Gas pressure at which the ramp ends [Pa]. Moved up, a ramp that had ended goes on: the way to "
 			"stop at chosen pressures."))
-		((std::vector<Real>,pressureProgram,,Attr::triggerPostLoad,
-			"Turning points of the gas pressure [Pa]: it goes from one to the next, up or down, in steps "
-			"of :yref:`pressureIncrement<GasEngine.pressureIncrement>`, each when the grains are "
-			"at rest. Empty: the ramp up to :yref:`maxPressure<GasEngine.maxPressure>`."))
-		((std::string,gasLaw,"incompressible",Attr::triggerPostLoad,
-			"Equation of state of the gas: ``'incompressible'``, ``'ideal'`` (rho = p M/(Z R T)) or "
-			"``'tabulated'`` [-]. Under a prescribed pressure it matters only for gas that is cut off from "
+		((shared_ptr<GasLaw>,gasLaw,new IncompressibleGas,Attr::triggerPostLoad,
+			"Equation of state of the gas: :yref:`IncompressibleGas`, :yref:`IdealGas` or "
+			":yref:`TabulatedGas`. Under a prescribed pressure it matters only for gas that is cut off from "
 			"the inlet; a rate or a reservoir needs a compressible one."))
-		((Real,gasMolarMass,0.016043,Attr::triggerPostLoad,"Molar mass $M$ of the gas [kg/mol], > 0; methane."))
-		((Real,gasTemperature,293.15,Attr::triggerPostLoad,"Temperature $T$ of the gas, constant [K], > 0."))
-		((Real,gasDeviation,1,Attr::triggerPostLoad,
-			"Deviation factor $Z$ of the gas [-], > 0; 1 for an ideal gas, about 0.8 for methane at 10 MPa "
-			"and 290 K."))
-		((std::vector<Vector2r>,gasTable,,Attr::triggerPostLoad,
-			"Pairs (absolute pressure [Pa], density [kg/m³]) of the tabulated law, both ascending, at "
-			"least two; linear in between, in proportion below the first, refused above the last."))
+		((shared_ptr<GasSupply>,supply,new PressureSupply,Attr::triggerPostLoad,
+			"What is prescribed: :yref:`PressureSupply` (the ramp, or a program of pressures), "
+			":yref:`RateSupply` or :yref:`ReservoirSupply`. With the last two the pressure follows from "
+			"the mass and the volume of the connected gas in the moving grains."))
 		((Real,pressureDatum,101325,Attr::triggerPostLoad,
 			"Absolute pressure where the pressures of this engine are zero [Pa]: that of the air, or of "
 			"the water at the depth of the sediment if "
 			":yref:`waterPressure<PoreNetworkEngine.waterPressure>` is 0 there."))
-		((std::string,gasControl,"pressure",Attr::triggerPostLoad,
-			"What is prescribed: ``'pressure'`` (the ramp, or "
-			":yref:`pressureProgram<GasEngine.pressureProgram>`), ``'rate'`` "
-			"(:yref:`gasRate<GasEngine.gasRate>`) or ``'reservoir'`` "
-			"(:yref:`reservoirVolume<GasEngine.reservoirVolume>` of gas at the starting pressure, "
-			"and no more) [-]. With the last two the pressure follows from the mass and the volume of the "
-			"connected gas in the moving grains."))
-		((Real,gasRate,0,Attr::triggerPostLoad,
-			"Mass of gas supplied per time with ``gasControl = 'rate'`` [kg/s], >= 0; 0 shuts the gas in."))
-		((Real,reservoirVolume,0,Attr::triggerPostLoad,
-			"Volume of gas upstream of the inlet, at the pressure of the connected gas [m³], >= 0; with a "
-			"rate, the dead volume of the supply. Changed later, it comes or goes with its gas."))
 		((int,historyInterval,0,Attr::triggerPostLoad,
 			"Steps between two rows of :yref:`history<GasEngine.history>` [-], >= 0; 0: a row per "
 			"level. At 8192 rows every second one goes and the interval doubles."))
@@ -167,7 +150,7 @@ supply, its inlet, and the pressure levels. Use one of these two; this class by 
 			"What the grains were at the start."))
 		,
 		,
-		.add_property("programPosition",+[](GasEngine& e) { return e.invasion().levels.programPosition; },
+		.add_property("programPosition",+[](GasEngine& e) { return e.levelsNow().programPosition; },
 			"Turning points of the program that were reached [-].")
 		.add_property("inletPores",+[](GasEngine& e) { return e.invasion().inletPores; },
 			"Number of domains that the inlet fills at the start [-].")
@@ -191,7 +174,7 @@ supply, its inlet, and the pressure levels. Use one of these two; this class by 
 			"Iteration of the last invasion [-].")
 		.add_property("nEvents",+[](GasEngine& e) { return e.invasion().events.size(); },
 			"Number of pores invaded so far [-].")
-		.add_property("rampDone",+[](GasEngine& e) { return e.invasion().levels.done; },
+		.add_property("rampDone",+[](GasEngine& e) { return e.levelsNow().done; },
 			"Whether the last level of the ramp is finished.")
 		.add_property("gasSaturation",+[](GasEngine& e) { return e.invasion().gasSaturation; },
 			"Share of the void volume that holds gas [-], at each new level and each avalanche.")
@@ -231,7 +214,7 @@ supply, its inlet, and the pressure levels. Use one of these two; this class by 
 			"on the inlet [m³]), ``mass`` (injected [kg]), ``gasSaturation`` [-], ``brokenBonds``, "
 			"``level``.")
 		.def("risePerPeriod",&GasEngine::pyRisePerPeriod,
-			"What the present :yref:`gasRate<GasEngine.gasRate>` adds to the pressure of the gas, "
+			"What the present :yref:`RateSupply.rate` adds to the pressure of the gas, "
 			"at its present volume, within a period of a mean grain on a mean contact, 2 pi sqrt(m/k_n) "
 			"[Pa]: in proportion to the rate. The grains stay near rest while it is a thousandth of the "
 			"capillary pressure or less. Infinity without room for gas; 0 without contacts.")

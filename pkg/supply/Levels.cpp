@@ -16,19 +16,19 @@ void checkOptions(const LevelOptions& o)
 	requirePositive("restDisplacement [-]", o.restDisplacement);
 	if (o.invasionInterval < 0) refuseAttribute("invasionInterval [-]", o.invasionInterval, ">= 0");
 	for (double p : o.program)
-		requireFinite("pressureProgram [Pa]", p);
+		requireFinite("PressureSupply.program [Pa]", p);
 }
 
 void checkTogether(const LevelOptions& o, const SupplyOptions& supply, double waterPressure)
 {
 	if (o.program.empty()) return;
 	if (supply.pressureFollows())
-		refuseAttribute("pressureProgram, points", o.program.size(),
-		        "none with gasControl = '" + nameOf(supply.control) + "'");
+		refuseAttribute("PressureSupply.program, points", o.program.size(),
+		        "none with supply = " + nameOf(supply.control));
 	if (!(o.pressureIncrement > 0))
-		refuseAttribute("pressureIncrement [Pa]", o.pressureIncrement, "> 0 with a pressureProgram");
+		refuseAttribute("pressureIncrement [Pa]", o.pressureIncrement, "> 0 with a PressureSupply.program");
 	for (double p : o.program)
-		if (!(p >= waterPressure)) refuseAttribute("pressureProgram [Pa]", p, ">= waterPressure");
+		if (!(p >= waterPressure)) refuseAttribute("PressureSupply.program [Pa]", p, ">= waterPressure");
 }
 
 bool Levels::due(const LevelOptions& o, const SupplyOptions& supply, double gasPressure) const
@@ -67,10 +67,10 @@ void Levels::followProgram(const LevelOptions& o, double& gasPressure)
 	        std::abs(way) <= o.pressureIncrement ? target : gasPressure + std::copysign(o.pressureIncrement, way);
 }
 
-void Levels::follow(const LevelOptions& o, const SupplyOptions& supply, double gasPressure, bool started)
+void Levels::follow(const LevelOptions& o, const SupplyOptions& supply, double gasPressure)
 {
-	if (started && supply.control != controlFollowed) done = false;
-	if (started && o.program != programFollowed) programPosition = 0, done = false;
+	if (supply.control != controlFollowed) done = false;
+	if (o.program != programFollowed) programPosition = 0, done = false;
 	controlFollowed = supply.control, programFollowed = o.program;
 	if (!done || supply.pressureFollows() || !o.program.empty() || gasPressure >= o.maxPressure) return;
 	if (rampEnd != std::array<double, 3> { gasPressure, o.maxPressure, o.pressureIncrement }) done = false;

@@ -51,8 +51,9 @@ public:
 	/// The pressure of the next level, which begins at `iteration`; or that was the last one.
 	void next(const LevelOptions& options, const SupplyOptions& supply, double& gasPressure, int iteration);
 	/// Takes note of options that were changed: another control goes on from here, a new program begins, and so
-	/// does a ramp whose end was moved up, or a held pressure that was changed. After loading it changes nothing.
-	void follow(const LevelOptions& options, const SupplyOptions& supply, double gasPressure, bool started);
+	/// does a ramp whose end was moved up, or a held pressure that was changed. What was followed is saved: after
+	/// loading it changes nothing.
+	void follow(const LevelOptions& options, const SupplyOptions& supply, double gasPressure);
 
 	// What follow() compares with: part of the state that is saved.
 	std::vector<double> programFollowed;

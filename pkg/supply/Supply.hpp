@@ -14,8 +14,7 @@ namespace capfrac {
 /// What is prescribed: the pressure (a ramp or a program), a rate, or a reservoir that is left to itself.
 enum class GasControl { pressure, rate, reservoir };
 
-/// 'pressure', 'rate' or 'reservoir'; throws std::invalid_argument naming `gasControl` otherwise.
-GasControl gasControlFromName(const std::string& name);
+/// As messages call it: the class of engines' `supply`.
 std::string nameOf(GasControl control);
 
 struct SupplyOptions {
@@ -23,8 +22,8 @@ struct SupplyOptions {
 	double rate = 0;            ///< mass supplied per time with GasControl::rate [kg/s] >= 0
 	double reservoirVolume = 0; ///< volume upstream of the inlet, at the pressure of the connected gas [m^3] >= 0
 	EquationOfState gas;
-	std::string lawName = "ideal"; ///< as messages call it
-	double pressureDatum = 101325; ///< absolute pressure where pressures are zero [Pa]
+	std::string lawName = "IdealGas"; ///< as messages call it
+	double pressureDatum = 101325;    ///< absolute pressure where pressures are zero [Pa]
 
 	/// By mass: only a gas whose density follows from its pressure.
 	bool gasCounted() const { return gas.law != GasLaw::incompressible; }
@@ -34,7 +33,8 @@ struct SupplyOptions {
 	double densityAt(double pressure) const;
 };
 
-/// Checks what an option shows by itself. Throws std::invalid_argument naming it.
+/// Check what an option shows by itself. Throw std::invalid_argument naming it.
+void checkOptions(const EquationOfState& gas);
 void checkOptions(const SupplyOptions& options);
 /// Checks what only the whole of the options shows, water having the pressure `waterPressure` [Pa] and the gas
 /// `gasPressure` [Pa]. Throws std::invalid_argument, or std::runtime_error where the gas has no density there.
@@ -46,7 +46,7 @@ template <class Work> auto namingGas(const SupplyOptions& options, Work work)
 	try {
 		return work();
 	} catch (const GasLawError& error) {
-		throw std::runtime_error("gasLaw = '" + options.lawName + "': " + error.what());
+		throw std::runtime_error("gasLaw = " + options.lawName + ": " + error.what());
 	}
 }
 

@@ -8,6 +8,8 @@ An extension of YADE. ``import capfrac`` in a YADE script or session adds the cl
   their contacts,
 * ``PoreNetworkEngine``, ``SinglePhaseFlowEngine``, ``GasInvasionEngine``, ``ViscousInvasionEngine``: the pores, water
   that flows through them, and gas that enters them, against drained or viscous water,
+* ``IncompressibleGas``, ``IdealGas``, ``TabulatedGas``; ``PressureSupply``, ``RateSupply``, ``ReservoirSupply``: the
+  equation of state of that gas, and what is prescribed of it,
 * ``MeniscusCohesionEngine``: menisci that pull grains together where both fluids meet,
 * ``WallServoEngine``: walls that hold stresses,
 
@@ -103,27 +105,14 @@ def _load(threads):
         with environment.settled(threads), contextlib.redirect_stdout(io.StringIO()):
             importlib.import_module("yade")
         wrapper = importlib.import_module("yade.wrapper")
-        importlib.import_module("capfrac._engines")
+        engines = importlib.import_module("capfrac._engines")
     except ImportError as problem:
         raise CapfracError(
             f"capfrac's engines cannot be loaded ({problem}); start Python with `capfrac python`, "
             "or YADE with `capfrac yade`, which know where everything is"
         ) from problem
-    names = [
-        "DiskMat",
-        "WallMat",
-        "Ip2_DiskMat_DiskMat_CohFrictPhys",
-        "Ip2_WallMat_DiskMat_CohFrictPhys",
-        "Ig2_Wall_Sphere_ScGeom6D",
-        "PoreNetworkEngine",
-        "SinglePhaseFlowEngine",
-        "GasInvasionEngine",
-        "ViscousInvasionEngine",
-        "MeniscusCohesionEngine",
-        "WallServoEngine",
-    ]
     main = importlib.import_module("__main__")
-    for name in names:
+    for name in engines.classes:
         # A YADE session has YADE's classes among its own names: ours belong there too.
         if hasattr(main, "O") and not hasattr(main, name):
             setattr(main, name, getattr(wrapper, name))

@@ -5,6 +5,8 @@ import pytest
 from yade import O
 from yade.wrapper import ForceResetter, GasInvasionEngine, PoreNetworkEngine
 
+from capfrac.scene.gasobjects import gasObjects
+
 R = 1e-3
 
 
@@ -89,7 +91,7 @@ def rigid(settledScene, looseDisks, handScene):
             disks, walls = looseDisks(seed=7)
             handScene([disks[k] for k in (range(len(disks)) if order is None else order)], walls)
         # Without contacts there is no rest in the sense of small forces: let every level end by itself.
-        gas = GasInvasionEngine(checkInvariants=True, minLevelSteps=1, maxLevelSteps=1, **attributes)
+        gas = GasInvasionEngine(checkInvariants=True, minLevelSteps=1, maxLevelSteps=1, **gasObjects(attributes))
         if "inletPoints" not in attributes and "inletTo" not in attributes:
             gas.inletFrom, gas.inletTo = gas.inletStretch(2, 0.5 * (walls[0] + walls[1]))
         O.engines = [ForceResetter(), gas]

@@ -8,9 +8,20 @@ import math
 import numpy as np
 import pytest
 from yade import O
-from yade.wrapper import GasInvasionEngine
+from yade.wrapper import (
+    GasInvasionEngine,
+    GasLaw,
+    GasSupply,
+    IdealGas,
+    IncompressibleGas,
+    PressureSupply,
+    RateSupply,
+    ReservoirSupply,
+    TabulatedGas,
+)
 
 from capfrac import injection
+from capfrac.errors import CaseError
 
 #: Entry pressures of the settled sample of 1-2 mm are 121-241 Pa. With this absolute pressure of the water its pores
 #: are filled under changes of pressure that show, from a reservoir of some ten of them.
@@ -79,7 +90,7 @@ def test_programGoesUpAndDown(rigid):
     saturations = gas.levels()["gasSaturation"]
     # no imbibition: what is filled stays filled
     assert saturations == sorted(saturations) and saturations[3] == saturations[-1]
-    gas.pressureProgram = [220]
+    gas.supply.program = [220]
     assert not gas.rampDone and gas.programPosition == 0
     O.run(200, True)
     assert gas.levels()["pressure"][7:] == [160, 190, 220] and gas.rampDone
@@ -130,7 +141,7 @@ def fullOfGas(rigid, **attributes):
     gas = rigid("settled", gasPressure=1000, **{**IDEAL, **attributes})
     O.run(5, True)
     assert all(gas.cells()["phase"])
-    gas.gasControl = "rate"
+    gas.supply = RateSupply(reservoirVolume=gas.supply.reservoirVolume)
     return gas
 
 
@@ -206,7 +217,7 @@ def test_endOfTheTableIsNamed(rigid):
     with pytest.raises(
         RuntimeError,
         match=(
-            r"at time t = .* s, iteration \d+: gasLaw = 'tabulated': density of the gas .* allowed: up to the last of"
+            r"at time t = .* s, iteration \d+: gasLaw = TabulatedGas: density of the gas .* allowed: up to the last of"
             r" the table, 3"
         ),
     ):
@@ -269,7 +280,7 @@ def test_gasThatIsCutOffKeepsItsMass(rigid):
             if not inlet
         }
         gas.remeshDisplacement = 1.0  # the same cells, squeezed
-        gas.gasControl = "rate"
+        gas.supply = RateSupply()
         for body in O.bodies:
             body.state.pos = (0.999 * body.state.pos[0], body.state.pos[1], 0)
         O.step()
@@ -282,11 +293,11 @@ def test_gasThatIsCutOffKeepsItsMass(rigid):
                 assert (pressure + DATUM) * volume == pytest.approx(product[frozenset(members)], rel=1e-11)
         assert massIn(gas) == pytest.approx(mass, rel=ROUND_OFF)
         # Met again: one pressure for all, and the mass of all.
-        gas.gasControl, gas.gasPressure = "pressure", 1e6
+        gas.supply, gas.gasPressure = PressureSupply(), 1e6
         gas.invasionInterval = 0
         O.run(2, True)
         assert all(gas.cells()["phase"]) and gas.gasLedger()["cutOff"] == 0
-        gas.gasControl = "rate"
+        gas.supply = RateSupply()
         O.step()
         assert gas.gasPressure == pytest.approx(1e6, rel=1e-11)
     assert found > 1
@@ -380,7 +391,7 @@ def test_risePerPeriodIsThatOfTheFirstSteps(loadSample):
     volume = 3e-10 + gas.volumes()["gas"]
     assert rise == pytest.approx(1e-7 * period * 8.31446261815324 * 293.15 / 0.016043 / volume, rel=1e-9)
     assert pressure == pytest.approx(120e3, rel=1e-14)
-    gas.gasRate = 2e-7
+    gas.supply.rate = 2e-7
     assert gas.risePerPeriod() == pytest.approx(2 * rise, rel=1e-12)
 
 
@@ -388,65 +399,168 @@ def test_risePerPeriodIsThatOfTheFirstSteps(loadSample):
 
 
 @pytest.mark.parametrize(
-    "name, good, bad",
+    "kind, name, good, bad",
     [
-        ("gasLaw", "ideal", "vanDerWaals"),
-        ("gasMolarMass", 0.04, 0.0),
-        ("gasTemperature", 280.0, -3.0),
-        ("gasDeviation", 0.8, float("nan")),
-        ("pressureDatum", 2e5, float("inf")),
-        ("gasControl", "rate", "volume"),
-        ("pressureProgram", [3.0, 1.0], [3.0, float("nan")]),
-        ("gasRate", 1e-6, -1e-9),
-        ("reservoirVolume", 1e-9, -1.0),
-        ("historyInterval", 7, -1),
-        ("gasTable", [(1.0, 1.0), (2.0, 3.0)], [(1.0, 1.0), (2.0, 0.5)]),
-        ("gasTable", [(1.0, 1.0), (2.0, 3.0)], [(-1.0, 1.0)]),
+        (IdealGas, "molarMass", 0.04, 0.0),
+        (IdealGas, "temperature", 280.0, -3.0),
+        (IdealGas, "deviation", 0.8, float("nan")),
+        (TabulatedGas, "table", [(1.0, 1.0), (2.0, 3.0)], [(1.0, 1.0), (2.0, 0.5)]),
+        (TabulatedGas, "table", [(1.0, 1.0), (2.0, 3.0)], [(-1.0, 1.0)]),
+        (PressureSupply, "program", [3.0, 1.0], [3.0, float("nan")]),
+        (PressureSupply, "reservoirVolume", 1e-9, -1.0),
+        (RateSupply, "rate", 1e-6, -1e-9),
+        (RateSupply, "reservoirVolume", 1e-9, float("inf")),
+        (ReservoirSupply, "volume", 1e-9, -1.0),
+        (GasInvasionEngine, "pressureDatum", 2e5, float("inf")),
+        (GasInvasionEngine, "historyInterval", 7, -1),
     ],
 )
-def test_refusedAssignmentsChangeNothing(name, good, bad):
-    gas = GasInvasionEngine()
+def test_refusedAssignmentsChangeNothing(kind, name, good, bad):
+    thing = kind()
 
     def value():
-        found = getattr(gas, name)
-        return [tuple(v) if name == "gasTable" else v for v in found] if isinstance(good, list) else found
+        found = getattr(thing, name)
+        return [tuple(v) if name == "table" else v for v in found] if isinstance(good, list) else found
 
     first = value()
-    with pytest.raises(ValueError, match=f"{name}.* allowed:"):
-        setattr(gas, name, bad)
+    named = name if kind is GasInvasionEngine else f"{kind.__name__}.{name}"
+    with pytest.raises(ValueError, match=f"{named}.* allowed:"):
+        setattr(thing, name, bad)
     assert value() == first
-    setattr(gas, name, good)
+    setattr(thing, name, good)
     with pytest.raises(ValueError, match="allowed:"):
-        setattr(gas, name, bad)
+        setattr(thing, name, bad)
     assert value() == good
-    gas.thickness = 3.0  # nothing is left of the refused value
+    setattr(thing, name, good)  # nothing is left of the refused value
+    with pytest.raises(ValueError, match=f"{named}.* allowed:"):
+        kind(**{name: bad})
+
+
+@pytest.mark.parametrize("name, bad", [("gasLaw", (None, GasLaw())), ("supply", (None, GasSupply()))])
+def test_noLawAndNoSupplyAreRefused(name, bad):
+    gas = GasInvasionEngine(gasLaw=IdealGas(deviation=0.7), supply=RateSupply(rate=3.0))
+    first = getattr(gas, name)
+    for value in bad:
+        with pytest.raises(ValueError, match=rf"{name} = .*, allowed: an object such as"):
+            setattr(gas, name, value)
+        assert getattr(gas, name) is first
+        with pytest.raises(ValueError, match=rf"{name} = .*, allowed: an object such as"):
+            GasInvasionEngine(**{name: value})
+    for value in (3, "ideal", IdealGas() if name == "supply" else RateSupply()):
+        with pytest.raises(TypeError):
+            setattr(gas, name, value)
+    assert (gas.gasLaw.deviation, gas.supply.rate) == (0.7, 3.0)
+
+
+def test_engineHasObjectsOfItsOwn():
+    one, other = GasInvasionEngine(), GasInvasionEngine()
+    assert type(one.gasLaw) is IncompressibleGas and type(one.supply) is PressureSupply
+    one.supply.program = [3.0]
+    assert list(other.supply.program) == [] and list(one.supply.program) == [3.0]
+
+
+def test_changedObjectsActAtTheNextStep(rigid):
+    gas = fullOfGas(rigid, reservoirVolume=RESERVOIR)
+    O.dt = 1e-5
+    O.step()
+    mass, supply = massIn(gas), gas.supply
+    supply.rate = 2e-5
+    O.run(10, True)
+    assert massIn(gas) - mass == pytest.approx(2e-5 * 10 * O.dt, rel=1e-6)
+    pressure = gas.gasPressure
+    gas.gasLaw.deviation *= 1.1  # the same gas, at the pressure that it has then
+    O.step()
+    mass = massIn(gas)
+    assert gas.gasPressure == pytest.approx(1.1 * (pressure + DATUM) - DATUM, rel=1e-3)
+    with pytest.raises(ValueError, match="RateSupply.rate"):
+        supply.rate = -1
+    O.step()
+    assert massIn(gas) - mass == pytest.approx(2e-5 * O.dt, rel=1e-6)
+    gas.supply = ReservoirSupply(volume=RESERVOIR)
+    supply.rate = 7.0  # an object that was taken off says nothing any more
+    O.run(3, True)
+    assert gas.rampDone and gas.gasLedger()["error"] < 1e-12
+    gas.supply = RateSupply(reservoirVolume=RESERVOIR)
+    assert not gas.rampDone
+
+
+KEYWORDS = [
+    (dict(gasLaw="ideal", gasDeviation=0.9), "gasLaw", IdealGas, dict(deviation=0.9, molarMass=0.016043)),
+    (dict(gasLaw="tabulated", gasTable=TABLE), "gasLaw", TabulatedGas, {}),
+    (dict(gasLaw="incompressible", gasDeviation=0.9), "gasLaw", IncompressibleGas, {}),
+    (dict(pressureProgram=[100.0, 50.0]), "supply", PressureSupply, dict(program=[100.0, 50.0])),
+    (dict(reservoirVolume=1e-9), "supply", PressureSupply, dict(reservoirVolume=1e-9)),
+    (
+        dict(gasControl="rate", gasRate=np.float64(1e-9), reservoirVolume=1e-9, gasLaw="ideal"),
+        "supply",
+        RateSupply,
+        dict(rate=1e-9, reservoirVolume=1e-9),
+    ),
+    (dict(gasControl="reservoir", reservoirVolume=1e-9, gasLaw="ideal"), "supply", ReservoirSupply, dict(volume=1e-9)),
+]
+
+
+@pytest.mark.parametrize("keywords, name, kind, values", KEYWORDS)
+def test_keywordsMakeObjects(loadSample, keywords, name, kind, values):
+    loadSample()
+    gas = injection.startInjection(100, 1, 200, 3, **keywords)
+    made = getattr(gas, name)
+    assert type(made) is kind and {key: made.dict()[key] for key in values} == values
+
+
+@pytest.mark.parametrize(
+    "keywords, message",
+    [
+        (dict(gasLaw="vanDerWaals"), "gasLaw = 'vanDerWaals', allowed: 'incompressible', 'ideal', 'tabulated'"),
+        (dict(gasControl="volume"), "gasControl = 'volume', allowed: 'pressure', 'rate', 'reservoir'"),
+        (dict(gasControl=3), "gasControl = 3, allowed: 'pressure', 'rate', 'reservoir'"),
+        (dict(gasLaw=3), r"gasLaw = 3, allowed: something like IncompressibleGas\(\)"),
+        (dict(gasLaw=None), "gasLaw = None, allowed: an object such as"),
+        (dict(gasTemperature=-3.0), r"IdealGas.temperature \[K\] = -3"),  # though nothing reads it
+        (dict(gasRate="fast"), "gasRate = 'fast', allowed: a number"),
+        (dict(gasLaw=IdealGas(), gasDeviation=0.9), "gasDeviation, allowed: without gasLaw = .*, which has its own"),
+        (dict(supply=RateSupply(), gasControl="rate"), "gasControl, allowed: without supply = .*, which has its own"),
+        (
+            dict(pressureProgram=[150.0], gasControl="rate", gasLaw="ideal"),
+            r"pressureProgram = \[150.0\], allowed: none with gasControl = 'rate'",
+        ),
+    ],
+)
+def test_keywordsThatMakeNoObject(loadSample, keywords, message):
+    loadSample()
+    engines = len(O.engines)
+    with pytest.raises(CaseError, match=message):
+        injection.startInjection(100, 1, 200, 3, **keywords)
+    assert len(O.engines) == engines
 
 
 @pytest.mark.parametrize(
     "values, message",
     [
         (
-            dict(gasControl="rate", gasRate=1e-6),
+            dict(supply=RateSupply(rate=1e-6)),
             (
-                "gasControl = 'rate', allowed: 'pressure' with gasLaw = 'incompressible': no pressure follows .* set"
-                " gasLaw = 'ideal'"
+                "supply = RateSupply, allowed: PressureSupply with gasLaw = IncompressibleGas: no pressure follows .*"
+                " set gasLaw = IdealGas or"
             ),
         ),
         (
-            dict(gasControl="reservoir", reservoirVolume=1.0),
-            "gasControl = 'reservoir', allowed: 'pressure' with gasLaw = 'incompressible'",
+            dict(supply=ReservoirSupply(volume=1.0)),
+            "supply = ReservoirSupply, allowed: PressureSupply with gasLaw = IncompressibleGas",
         ),
         (
-            dict(gasControl="reservoir", gasLaw="ideal"),
-            "reservoirVolume .* = 0, allowed: > 0 with gasControl = 'reservoir'",
+            dict(supply=ReservoirSupply(), gasLaw=IdealGas()),
+            "ReservoirSupply.volume .* = 0, allowed: > 0 with supply = ReservoirSupply",
         ),
-        (dict(gasLaw="tabulated"), "gasTable, pairs = 0, allowed: at least two"),
-        (dict(gasLaw="ideal", pressureDatum=0.0), "pressureDatum .* = 0, allowed: > -waterPressure"),
-        (dict(pressureProgram=[200.0]), "pressureIncrement .* = 0, allowed: > 0 with a pressureProgram"),
-        (dict(pressureProgram=[-5.0], pressureIncrement=1.0), "pressureProgram .* = -5, allowed: >= waterPressure"),
+        (dict(gasLaw=TabulatedGas()), "TabulatedGas.table, pairs = 0, allowed: at least two"),
+        (dict(gasLaw=IdealGas(), pressureDatum=0.0), "pressureDatum .* = 0, allowed: > -waterPressure"),
         (
-            dict(pressureProgram=[5.0], pressureIncrement=1.0, gasControl="rate", gasLaw="ideal"),
-            "pressureProgram, points = 1, allowed: none with gasControl = 'rate'",
+            dict(supply=PressureSupply(program=[200.0])),
+            "pressureIncrement .* = 0, allowed: > 0 with a PressureSupply.program",
+        ),
+        (
+            dict(supply=PressureSupply(program=[-5.0]), pressureIncrement=1.0),
+            "PressureSupply.program .* = -5, allowed: >= waterPressure",
         ),
     ],
 )
@@ -455,7 +569,6 @@ def test_whatDoesNotGoTogetherIsRefusedAtTheStart(rigid, values, message):
     with pytest.raises((ValueError, RuntimeError), match=message):
         gas.prepare()
     # The engine is as before: with the culprits taken back it starts.
-    for name, value in (("gasControl", "pressure"), ("gasLaw", "incompressible"), ("pressureProgram", [])):
-        setattr(gas, name, value)
+    gas.supply, gas.gasLaw = PressureSupply(), IncompressibleGas()
     gas.prepare()
     assert gas.gasIn == pytest.approx(gas.volumes()["gas"], rel=1e-14)

@@ -5,7 +5,7 @@ import math
 
 import pytest
 from yade import O
-from yade.wrapper import PoreNetworkEngine
+from yade.wrapper import IdealGas, PoreNetworkEngine
 
 from capfrac import injection, sediment, snapshot
 from capfrac.scene.gasengine import engineOfGas
@@ -62,7 +62,7 @@ def way(body, start):
 @pytest.mark.parametrize("waterPressure", [0, 1e5])
 @pytest.mark.parametrize("waterFlow", ["drained", "solved"])
 def test_aGrainThatNothingDrivesComesToRest(cage, waterFlow, waterPressure):
-    (free,) = cage([(5 * R, 5 * R, R)], waterFlow=waterFlow, gasLaw="ideal", waterPressure=waterPressure)
+    (free,) = cage([(5 * R, 5 * R, R)], waterFlow=waterFlow, gasLaw=IdealGas(), waterPressure=waterPressure)
     start = O.bodies[free].state.pos
     throw([free])
     O.bodies[free].state.angVel = (0, 0, 7)

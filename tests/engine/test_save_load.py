@@ -13,12 +13,18 @@ from yade import O
 from yade.wrapper import (
     DiskMat,
     GasInvasionEngine,
+    IdealGas,
     Ig2_Wall_Sphere_ScGeom6D,
     InteractionLoop,
     Ip2_DiskMat_DiskMat_CohFrictPhys,
     Ip2_WallMat_DiskMat_CohFrictPhys,
     Law2_ScGeom6D_CohFrictPhys_CohesionMoment,
     PoreNetworkEngine,
+    PressureSupply,
+    RateSupply,
+    ReservoirSupply,
+    TabulatedGas,
+    ViscousInvasionEngine,
     WallMat,
     WallServoEngine,
 )
@@ -34,6 +40,8 @@ STARTED = dict(
 
 def same(a, b):
     """Equality to the bit of nested lists and dicts; NaN equals NaN."""
+    if hasattr(a, "dict"):  # an object of YADE
+        return type(a) is type(b) and same(a.dict(), b.dict())
     if isinstance(a, dict):
         return a.keys() == b.keys() and all(same(a[k], b[k]) for k in a)
     if isinstance(a, (list, tuple)):
@@ -210,18 +218,20 @@ ENGINES = [
     (
         GasInvasionEngine,
         dict(
-            gasLaw="ideal",
-            gasMolarMass=0.02,
-            gasTemperature=280,
-            gasDeviation=0.8,
+            gasLaw=IdealGas(molarMass=0.02, temperature=280, deviation=0.8),
             pressureDatum=2e5,
-            gasControl="rate",
-            gasRate=3e-6,
-            reservoirVolume=1e-9,
+            supply=RateSupply(rate=3e-6, reservoirVolume=1e-9),
             historyInterval=5,
-            pressureProgram=[3, 1],
         ),
     ),
+    (
+        ViscousInvasionEngine,
+        dict(
+            gasLaw=TabulatedGas(table=[(1, 0.1), (2e5, 1.4)]),
+            supply=PressureSupply(program=[3, 1 / 3], reservoirVolume=1e-9),
+        ),
+    ),
+    (GasInvasionEngine, dict(gasLaw=IdealGas(), supply=ReservoirSupply(volume=0.1))),
     (GasInvasionEngine, dict(entryLaw="mayerStowePrincen")),
     (
         GasInvasionEngine,

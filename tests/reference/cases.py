@@ -12,9 +12,9 @@ import numpy as np
 from yade import O
 from yade.wrapper import ForceResetter, SinglePhaseFlowEngine
 
-from capfrac.scene.gasengine import engineOfGas
-
 from capfrac import injection, sediment
+from capfrac.scene.gasengine import engineOfGas
+from capfrac.scene.gasobjects import gasObjects
 
 NAN = float("nan")
 #: Entry pressures of the sample of 1-2 mm are 121-241 Pa; with this absolute pressure of the
@@ -98,7 +98,7 @@ def grainTable():
 def rigidGas(build, steps=400, waterFlow="drained", **attributes):
     build(1e-3)
     gas = engineOfGas(waterFlow)(
-        label="gas", checkInvariants=True, minLevelSteps=1, maxLevelSteps=1, historyInterval=7, **attributes
+        label="gas", checkInvariants=True, minLevelSteps=1, maxLevelSteps=1, historyInterval=7, **gasObjects(attributes)
     )
     left, right = O.bodies[0].state.pos[0], O.bodies[1].state.pos[0]
     if "inletPoints" not in attributes:

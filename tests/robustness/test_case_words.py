@@ -6,13 +6,16 @@ import re
 
 import pytest
 from yade import O
+from yade import wrapper
 from yade.wrapper import GasInvasionEngine
 
 from capfrac import casescene, injection, sediment
 from capfrac.case import KEYS, resolveCase, words
 from capfrac.case.words import inCaseWords
 from capfrac.errors import CaseError, SampleError
+from capfrac.scene.gasobjects import LAW_PARAMETERS, LAWS, SUPPLIES, SUPPLY_PARAMETERS
 
+OBJECTS = (*LAWS.values(), *SUPPLIES.values())
 GOOD = {
     "grains": {"rMin": 1e-3},
     "stress": {"vertical": 10e3, "horizontal": 8e3},
@@ -34,7 +37,10 @@ def changed(**entries):
 
 def test_tablesNameWhatThereIs():
     assert set(words.KEYS.values()) <= {key.path for key in KEYS}
-    assert set(words.GAS) <= set(GasInvasionEngine().dict())
+    keywords = {"gasControl", *LAW_PARAMETERS, *SUPPLY_PARAMETERS}
+    assert set(words.GAS) <= set(GasInvasionEngine().dict()) | keywords
+    parameters = {f"{kind}.{name}" for kind in OBJECTS for name in getattr(wrapper, kind)().dict()}
+    assert parameters == {path for path in words.OBJECTS if "." in path}
     assert set(words.SEDIMENT) <= {field for field in sediment.Sediment.__dataclass_fields__}
 
 
@@ -47,14 +53,24 @@ def test_whatTheEngineRefusesIsNamedByItsKey(name):
     engine = GasInvasionEngine()
     value = getattr(engine, name)
     wrong = {str: "quark", int: -7, float: -math.inf}.get(type(value))
-    if name in ("gravity", "gasTable", "pressureProgram"):
-        wrong = {"gravity": (math.inf, 0), "gasTable": [(1, -1)], "pressureProgram": [math.inf]}[name]
+    if name == "gravity":
+        wrong = (math.inf, 0)
     if wrong is None or name in ("inletFrom", "inletTo"):  # points and ends are looked at when there is a scene
         return
     with pytest.raises(ValueError) as problem:
         setattr(engine, name, wrong)
     text = inCaseWords(str(problem.value))
     assert words.KEYS[name] in text and not re.search(rf"(?<![\w.]){name}\b", text)
+
+
+@pytest.mark.parametrize("path", [path for path in words.OBJECTS if "." in path])
+def test_whatAnObjectRefusesIsNamedByItsKey(path):
+    kind, name = path.split(".")
+    wrong = {"table": [(1, -1)], "program": [math.inf]}.get(name, -math.inf)
+    with pytest.raises(ValueError) as problem:
+        getattr(wrapper, kind)(**{name: wrong})
+    text = inCaseWords(str(problem.value))
+    assert words.OBJECTS[path] in text and kind not in text
 
 
 @pytest.mark.parametrize(
@@ -70,8 +86,16 @@ def test_whatTheEngineRefusesIsNamedByItsKey(name):
             "stress.vertical = 1e+09 Pa, or a larger grains.normalStiffness",
         ),
         (
-            "gasLaw = 'tabulated': beyond the last pair of gasTable",
+            "gasLaw = TabulatedGas: beyond the last pair of TabulatedGas.table",
             "gas.law = 'tabulated': beyond the last pair of gas.table",
+        ),
+        (
+            "supply = RateSupply, allowed: PressureSupply with gasLaw = IncompressibleGas; the supply goes on",
+            "supply.control = 'rate', allowed: 'pressure' with gas.law = 'incompressible'; the supply goes on",
+        ),
+        (
+            "ReservoirSupply.volume [m³] = 0, allowed: > 0 with supply = ReservoirSupply",
+            "supply.reservoirVolume [m³] = 0, allowed: > 0 with supply.control = 'reservoir'",
         ),
     ],
 )

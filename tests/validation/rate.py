@@ -15,6 +15,7 @@ import capfrac
 capfrac.load_engines()
 
 from yade import O
+from yade.wrapper import RateSupply
 
 from runs import FOLDER
 
@@ -96,10 +97,8 @@ def one(name, seed=1, case="figure16_small", law="incompressible", volume=None, 
         gasLaw=law if volume is None else "ideal",
     )
     if volume is not None:
-        gas.reservoirVolume = volume * gas.initialVoid
-        gas.gasRate = 1e-6
-        gas.gasRate *= rise / gas.risePerPeriod()
-        gas.gasControl = "rate"
+        gas.supply = RateSupply(rate=1e-6, reservoirVolume=volume * gas.initialVoid)
+        gas.supply.rate *= rise / gas.risePerPeriod()
     begun, error = O.time, 0.0
     while gas.gasPressure < gas.maxPressure and (
         gas.breakthroughIter < 0 or O.iter < gas.breakthroughIter + after * refine
@@ -113,8 +112,8 @@ def one(name, seed=1, case="figure16_small", law="incompressible", volume=None, 
         "breakthrough": None if math.isnan(gas.breakthroughPressure) else gas.breakthroughPressure,
         "breakthroughIter": gas.breakthroughIter,
         "error": error,
-        "rate": gas.gasRate,
-        "reservoir": gas.reservoirVolume,
+        "rate": 0.0 if volume is None else gas.supply.rate,
+        "reservoir": gas.supply.reservoirVolume,
         "void": gas.initialVoid,
         "detached": gas.nDetachedGas,
         "ledger": gas.gasLedger(),

@@ -9,7 +9,7 @@ the engine lists before the injection. Round-off: a few hundred sums, each to so
 import numpy as np
 import pytest
 from yade import O
-from yade.wrapper import ForceResetter, GasInvasionEngine
+from yade.wrapper import ForceResetter, GasInvasionEngine, IdealGas, RateSupply
 
 GAS_CONSTANT = 8.31446261815324  # J/(mol K)
 MOLAR_MASS, TEMPERATURE, DEVIATION, DATUM = 0.016043, 290.0, 0.95, 500.0
@@ -19,27 +19,18 @@ RATE, DT, RESERVOIR, START = 2e-3, 1e-5, 3e-4, 50.0
 
 @pytest.fixture
 def pack(settledScene):
-    """A function (**attributes) -> gas engine at a rate in the settled sample of 60 grains that stand still."""
+    """A function (attributes of the supply, **attributes) -> gas engine at a rate in the settled sample of 60 grains that stand still."""
 
-    def make(**attributes):
+    def make(supply={}, **attributes):
         walls = settledScene()
         gas = GasInvasionEngine(
             checkInvariants=True,
-            **{
-                **dict(
-                    gasPressure=START,
-                    gasLaw="ideal",
-                    gasMolarMass=MOLAR_MASS,
-                    gasTemperature=TEMPERATURE,
-                    gasDeviation=DEVIATION,
-                    pressureDatum=DATUM,
-                    gasControl="rate",
-                    gasRate=RATE,
-                    reservoirVolume=RESERVOIR,
-                    historyInterval=1,
-                ),
-                **attributes,
-            },
+            gasPressure=START,
+            gasLaw=IdealGas(molarMass=MOLAR_MASS, temperature=TEMPERATURE, deviation=DEVIATION),
+            pressureDatum=DATUM,
+            supply=RateSupply(**{"rate": RATE, "reservoirVolume": RESERVOIR, **supply}),
+            historyInterval=1,
+            **attributes,
         )
         gas.inletFrom, gas.inletTo = gas.inletStretch(2, 0.5 * (walls[0] + walls[1]))
         O.engines, O.dt = [ForceResetter(), gas], DT
@@ -112,7 +103,7 @@ def test_halfTheStepGivesTheSamePoresAtTheSamePressures(pack):
 def test_smallVolumesFillAtTheRateOfTheSupply(pack):
     # Without a reservoir the gas of two pores cannot fill a third: its pressure falls to the water's, and the pore
     # fills by and by.
-    gas = pack(reservoirVolume=0.0, gasRate=2e-4)
+    gas = pack(dict(reservoirVolume=0.0, rate=2e-4))
     inlet = gas.volumes()["gas"]
     mass = (START + DATUM) / PER_DENSITY * inlet
     waited = 0

@@ -3,7 +3,9 @@
 
 import re
 
-#: Attributes of both engines of gas that take the value of a key as it is: attribute -> key.
+from capfrac.scene.gasobjects import LAW_PARAMETERS, LAWS, SUPPLIES, SUPPLY_PARAMETERS
+
+#: Attributes of both engines of gas, and keywords for their objects (see :mod:`capfrac.scene.gasobjects`), that take the value of a key as it is: attribute -> key.
 GAS = {
     "interfacialTension": "gas.interfacialTension",
     "entryLaw": "gas.entryLaw",
@@ -54,6 +56,7 @@ _OTHERS = {
     "gasTable": "gas.table",
     "gravity": "gas.gravity",
     "pressureProgram": "supply.program",
+    "supply": "supply.control",
     "pressureIncrement": "ramp.increment",
     "maxPressure": "ramp.max",
     "inletWall": "inlet.wall",
@@ -75,17 +78,25 @@ _OTHERS = {
 }
 KEYS = {**GAS, **DRAINED, **VISCOUS, **SEDIMENT, **_OTHERS}
 
+#: Classes of the parameter objects, as the keys call them, and their attributes.
+OBJECTS = {
+    **{path: KEYS[name] for name, paths in {**LAW_PARAMETERS, **SUPPLY_PARAMETERS}.items() for path in paths},
+    **{kind: f"'{name}'" for name, kind in {**LAWS, **SUPPLIES}.items()},
+}
+
 # A word that is English, too, is a name only where it has a value.
 _UNMISTAKABLE = "|".join(name for name in KEYS if not name.islower())
 _ENGLISH = "|".join(name for name in KEYS if name.islower())
+_OBJECTS = "|".join(map(re.escape, OBJECTS))
 _NAME = re.compile(
-    rf"(?<![\w.])(?:\w+(?:Engine|Mat)\.)?(?:({_UNMISTAKABLE})(?!\w)|({_ENGLISH})(?= (?:\[[^\]]*\] )?= ))"
+    rf"(?<![\w.])(?:\w+(?:Engine|Mat)\.)?"
+    rf"(?:({_OBJECTS}|{_UNMISTAKABLE})(?!\w)|({_ENGLISH})(?= (?:\[[^\]]*\] )?= ))"
 )
 
 
 def inCaseWords(text):
     """A message of an engine or a function with the keys of a case in place of attributes and arguments."""
-    return _NAME.sub(lambda found: KEYS[found[1] or found[2]], text)
+    return _NAME.sub(lambda found: {**KEYS, **OBJECTS}[found[1] or found[2]], text)
 
 
 def values(case, names):

@@ -62,7 +62,7 @@ def _corner(run, name, capillaryNumber, viscosityRatio, tension, viscosity, step
     gas = startGas(tension, viscosity, viscosityRatio * viscosity)
     speed = capillaryNumber * tension / (viscosityRatio * viscosity)
     rate = speed * sediment.boxSize()[0]
-    gas.gasRate = rate * densityAt(gas.gasPressure)
+    gas.supply.rate = rate * densityAt(gas.gasPressure)
     O.dt = gas.volumes()["void"] / rate / steps
     for step in range(2 * steps):
         sediment.advance(1)
@@ -76,23 +76,21 @@ def _corner(run, name, capillaryNumber, viscosityRatio, tension, viscosity, step
     return {"capillaryNumber": capillaryNumber, "viscosityRatio": viscosityRatio, **measure(gas)}
 
 
-def startGas(tension, viscosity, gasViscosity, control="rate", pressure=0.0, **attributes):
+def startGas(tension, viscosity, gasViscosity, pressure=0.0, **attributes):
     """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. The inlet is the floor,
     the outlet the top; returns it.
     """
     from yade import O
-    from yade.wrapper import ViscousInvasionEngine
+    from yade.wrapper import IdealGas, RateSupply, ViscousInvasionEngine
 
     walls = sediment.wallBodies()
     gas = ViscousInvasionEngine(
         **{
             **dict(
                 label="gas",
-                gasLaw="ideal",
-                gasTemperature=ROOM_TEMPERATURE,
-                gasMolarMass=METHANE_MOLAR_MASS,
+                gasLaw=IdealGas(temperature=ROOM_TEMPERATURE, molarMass=METHANE_MOLAR_MASS),
                 pressureDatum=DATUM,
-                gasControl=control,
+                supply=RateSupply(),
                 gasPressure=pressure,
                 maxPressure=1e12,
                 interfacialTension=tension,

@@ -6,4 +6,6 @@
     packing       where grains come from: random numbers, or a file
     samplechecks  what cannot be a sample, and what became none
     gasengine     the engines of the gas
+    gasobjects    keywords in place of their objects, equation of state and supply
+    attributes    values that classes of YADE cannot take
 """

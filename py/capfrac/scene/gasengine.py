@@ -5,7 +5,9 @@ import math
 
 from capfrac.errors import CaseError, SceneError
 from capfrac.scene import sediment
-from capfrac.values import LARGEST_INT, asFloat, asInt, didYouMean, shown
+from capfrac.scene.attributes import attributeAmiss, plain
+from capfrac.scene.gasobjects import gasObjects
+from capfrac.values import LARGEST_INT, asFloat, asInt, shown
 
 
 def startInjection(
@@ -28,9 +30,21 @@ def startInjection(
     ``start``, ``increment``, ``max``: the ramp of the capillary pressure [Pa]; ``max`` says nothing to a program, a
     rate or a reservoir and may then be left out. The inlet is ``pores`` neighbouring pores around the middle of
     ``wall``, or the ``stretch`` (from, to) [m] of it (infinite ends are those of the wall), or the pores that hold
-    ``points`` [m]. All other attributes of the engine can be given by name. Raises :class:`CaseError` naming each
-    argument that is impossible, and :class:`SceneError` for a scene that cannot be followed (RuntimeError of the
-    engine); the scene then is as before.
+    ``points`` [m]. All other attributes of the engine can be given by name. What the gas obeys and how it is supplied
+    are objects, ``gasLaw=IdealGas(temperature=280)``, ``supply=RateSupply(rate=1e-6, reservoirVolume=1e-9)``, or these
+    keywords, which make them:
+
+    ===================  =====================================================================================
+    ``gasLaw``           ``"incompressible"``, ``"ideal"`` or ``"tabulated"``: ``IncompressibleGas``,
+                         ``IdealGas`` (``gasMolarMass`` [kg/mol], ``gasTemperature`` [K], ``gasDeviation`` [-]),
+                         ``TabulatedGas`` (``gasTable``, pairs [Pa], [kg/m^3])
+    ``gasControl``       ``"pressure"``, ``"rate"`` or ``"reservoir"``: ``PressureSupply`` (``pressureProgram``
+                         [Pa]), ``RateSupply`` (``gasRate`` [kg/s]), ``ReservoirSupply``
+    ``reservoirVolume``  volume upstream of the inlet [m^3], of each supply
+    ===================  =====================================================================================
+
+    Raises :class:`CaseError` naming each argument that is impossible, and :class:`SceneError` for a scene that cannot
+    be followed (RuntimeError of the engine); the scene then is as before.
     """
     kind = engineOfGas(waterFlow)
     sediment.engine("servo")  # a scene without one is refused before anything is made
@@ -38,16 +52,18 @@ def startInjection(
     pores, stretch, points = _checkedInlet(pores, stretch, points)
     gas = madeEngine(
         kind,
-        **{
-            "label": "gas",
-            "gasPressure": ramp["waterPressure"] + ramp["start"],
-            "pressureIncrement": ramp["increment"],
-            "waterPressure": ramp["waterPressure"],
-            "maxPressure": ramp["waterPressure"] + ramp["max"],
-            "inletWall": wall,
-            "outletWall": outlet,
-            **attributes,
-        },
+        **gasObjects(
+            {
+                "label": "gas",
+                "gasPressure": ramp["waterPressure"] + ramp["start"],
+                "pressureIncrement": ramp["increment"],
+                "waterPressure": ramp["waterPressure"],
+                "maxPressure": ramp["waterPressure"] + ramp["max"],
+                "inletWall": wall,
+                "outletWall": outlet,
+                **attributes,
+            }
+        ),
     )
     try:
         if points:
@@ -101,42 +117,13 @@ def madeEngine(kind, **attributes):
     Raises :class:`CaseError` naming each that it cannot have.
     """
     known = kind().dict()
-    problems = [problem for name, value in attributes.items() for problem in _attributeAmiss(kind, known, name, value)]
+    problems = [problem for name, value in attributes.items() for problem in attributeAmiss(kind, known, name, value)]
     if problems:
         raise CaseError(*problems)
-    plain = {name: value.tolist() if hasattr(value, "tolist") else value for name, value in attributes.items()}
     try:
-        return kind(**plain)
+        return kind(**{name: plain(value) for name, value in attributes.items()})
     except ValueError as problem:
         raise CaseError(str(problem)) from None
-
-
-def _attributeAmiss(kind, known, name, value):
-    if name not in known:
-        yield f"{kind.__name__} has no attribute '{name}'{didYouMean(name, known)}"
-        return
-    value = value.tolist() if hasattr(value, "tolist") else value
-    wanted = type(known[name])
-    whole = asInt(value)
-    if wanted is bool and not isinstance(value, bool):
-        yield f"{name} = {shown(value)}, allowed: True, False"
-    elif wanted is int and (whole is None or not -LARGEST_INT <= whole <= LARGEST_INT):
-        yield f"{name} = {shown(value)}, allowed: whole numbers up to {LARGEST_INT}"
-    elif wanted is float and (isinstance(value, bool) or not _convertible(kind, name, value)):
-        yield f"{name} = {shown(value)}, allowed: a number"
-    elif wanted not in (bool, int, float) and not _convertible(kind, name, value):
-        kinds = {str: "a text", list: "a list, as the engine's documentation says"}
-        yield f"{name} = {shown(value)}, allowed: {kinds.get(wanted, f'something like {known[name]}')}"
-
-
-def _convertible(kind, name, value):
-    try:
-        setattr(kind(), name, value)
-    except (TypeError, OverflowError):
-        return False
-    except ValueError:  # a value that the engine refuses by itself says why when it is made
-        pass
-    return True
 
 
 def addMenisci(law="bridge", **attributes):

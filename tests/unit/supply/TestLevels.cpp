@@ -57,12 +57,12 @@ TEST(Levels, ARampWhoseEndIsMovedUpGoesOn)
 	Levels levels;
 	const SupplyOptions supply;
 	auto options = ramp(4, 10);
-	levels.follow(options, supply, 1, false);
+	levels.follow(options, supply, 1);
 	course(levels, options, supply, 1);
-	levels.follow(options, supply, 10, true); // nothing was changed
+	levels.follow(options, supply, 10); // nothing was changed
 	EXPECT_TRUE(levels.done);
 	options.maxPressure = 12;
-	levels.follow(options, supply, 10, true);
+	levels.follow(options, supply, 10);
 	EXPECT_EQ(course(levels, options, supply, 10), (std::vector<double> { 10, 12 }));
 }
 
@@ -72,17 +72,17 @@ TEST(Levels, AnotherProgramOrControlBeginsAnew)
 	SupplyOptions supply;
 	auto options = ramp(2, 0);
 	options.program = { 3 };
-	levels.follow(options, supply, 1, true);
+	levels.follow(options, supply, 1);
 	course(levels, options, supply, 1);
-	levels.follow(options, supply, 3, true);
+	levels.follow(options, supply, 3);
 	EXPECT_TRUE(levels.done);
 	options.program = { 3, 5 };
-	levels.follow(options, supply, 3, true);
+	levels.follow(options, supply, 3);
 	EXPECT_FALSE(levels.done);
 	EXPECT_EQ(levels.programPosition, 0);
 	course(levels, options, supply, 3);
 	supply.control = GasControl::rate;
-	levels.follow(options, supply, 5, true);
+	levels.follow(options, supply, 5);
 	EXPECT_FALSE(levels.done);
 }
 
