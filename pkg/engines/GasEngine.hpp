@@ -82,8 +82,8 @@ supply, its inlet, and the pressure levels. Use one of these two; this class by 
 			"stop at chosen pressures."))
 		((shared_ptr<GasLaw>,gasLaw,new IncompressibleGas,Attr::triggerPostLoad,
 			"Equation of state of the gas: :yref:`IncompressibleGas`, :yref:`IdealGas` or "
-			":yref:`TabulatedGas`. Under a prescribed pressure it matters only for gas that is cut off from "
-			"the inlet; a rate or a reservoir needs a compressible one."))
+			":yref:`TabulatedGas`. Under a prescribed pressure it matters only for gas that is cut off "
+			"from the inlet; a rate or a reservoir needs a compressible one."))
 		((shared_ptr<GasSupply>,supply,new PressureSupply,Attr::triggerPostLoad,
 			"What is prescribed: :yref:`PressureSupply` (the ramp, or a program of pressures), "
 			":yref:`RateSupply` or :yref:`ReservoirSupply`. With the last two the pressure follows from "

@@ -57,12 +57,14 @@ public:
 	void postLoad(IdealGas&) { guard(std::tie(molarMass, temperature, deviation)); }
 	capfrac::EquationOfState equation() const override;
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(IdealGas,GasLaw,R"""(Gas whose density is proportional to its absolute pressure p:
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(IdealGas,GasLaw,R"""(Gas whose density is proportional to its absolute pressure
+p:
 $\rho = p M/(Z R T)$, with a constant deviation factor Z.)""",
 		((Real,molarMass,0.016043,Attr::triggerPostLoad,"Molar mass $M$ [kg/mol], > 0; methane."))
 		((Real,temperature,293.15,Attr::triggerPostLoad,"Temperature $T$, constant [K], > 0."))
 		((Real,deviation,1,Attr::triggerPostLoad,
-			"Deviation factor $Z$ [-], > 0; 1 for an ideal gas, about 0.8 for methane at 10 MPa and 290 K."))
+			"Deviation factor $Z$ [-], > 0; 1 for an ideal gas, about 0.8 for methane at 10 MPa and 290 "
+			"K."))
 		,
 		guard(std::tie(molarMass, temperature, deviation));
 	);

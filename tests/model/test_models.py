@@ -149,7 +149,10 @@ def test_forcesOfOnePressureAreThoseOnTheWalls():
         ({"interfacialTension": -1.0}, r"interfacialTension \[N/m\] = -1, allowed: finite and > 0"),
         ({"inletTo": 1.0}, r"the inlet is wider than its wall: inletTo \[m\] = 1"),
         ({"poreMode": "cell"}, "poreMode = 'cell', allowed: 'domain', 'triangle'"),
-        ({"gasControl": "rate", "gasLaw": "incompressible"}, "supply = RateSupply, allowed: PressureSupply with gasLaw"),
+        (
+            {"gasControl": "rate", "gasLaw": "incompressible"},
+            "supply = RateSupply, allowed: PressureSupply with gasLaw",
+        ),
     ],
 )
 def test_badOptionsAreNamed(options, message):

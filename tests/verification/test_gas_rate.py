@@ -19,7 +19,9 @@ RATE, DT, RESERVOIR, START = 2e-3, 1e-5, 3e-4, 50.0
 
 @pytest.fixture
 def pack(settledScene):
-    """A function (attributes of the supply, **attributes) -> gas engine at a rate in the settled sample of 60 grains that stand still."""
+    """A function (attributes of the supply, **attributes) -> gas engine at a rate in the settled sample of 60 grains.
+    They stand still.
+    """
 
     def make(supply={}, **attributes):
         walls = settledScene()
