@@ -136,7 +136,7 @@ def test_installationServesOtherUsers(installed, tmp_path):
                 "run",
             ],
             ["yade", "-x", "-n", "script.py"],
-            ["python", "-c", "from capfrac.run.rigid import _kernels; print('kernels', bool(_kernels()))"],
+            ["python", "-c", "from capfrac.run.rigid_networks import kernelsOf; print('kernels', bool(kernelsOf()))"],
         ]
         outputs = []
         for words in arguments:
