@@ -74,6 +74,42 @@ namespace {
 		}
 	}
 
+	/// Where the entries of a system go in its lower triangle: found once for each pattern.
+	struct Layout {
+		std::vector<int> rows, columns;  ///< of the entries, as they were given
+		std::vector<int> diagonal, slot; ///< in LowerTriangle::value
+
+		bool fits(const PressureSystem& system) const
+		{
+			if (diagonal.size() != system.diagonal.size() || rows.size() != system.entries.size())
+				return false;
+			for (std::size_t k = 0; k < rows.size(); ++k)
+				if (rows[k] != system.entries[k].row || columns[k] != system.entries[k].column)
+					return false;
+			return true;
+		}
+		/// The values of a system that fits, entries of one place added up in the order given.
+		void refresh(const PressureSystem& system, Vector& value) const
+		{
+			std::fill(value.begin(), value.end(), 0);
+			for (std::size_t j = 0; j < diagonal.size(); ++j)
+				value[diagonal[j]] = system.diagonal[j];
+			for (std::size_t k = 0; k < slot.size(); ++k)
+				value[slot[k]] += system.entries[k].value;
+		}
+		void find(const PressureSystem& system, const LowerTriangle& a)
+		{
+			rows.clear(), columns.clear(), slot.clear();
+			diagonal.assign(a.start.begin(), a.start.end() - 1); // the first of each column
+			for (const auto& e : system.entries) {
+				rows.push_back(e.row), columns.push_back(e.column);
+				const int j = std::min(e.row, e.column), i = std::max(e.row, e.column);
+				const auto from = a.row.begin() + a.start[j], to = a.row.begin() + a.start[j + 1];
+				slot.push_back(static_cast<int>(std::lower_bound(from, to, i) - a.row.begin()));
+			}
+		}
+	};
+
 	LowerTriangle assemble(const PressureSystem& system)
 	{
 		const int n = static_cast<int>(system.diagonal.size());
@@ -189,6 +225,7 @@ namespace {
 struct PressureSolver::Implementation {
 	PressureSolverOptions options;
 	LowerTriangle matrix;
+	Layout layout; ///< of `matrix`
 	Factor factor;
 	Vector factored; ///< values of the matrix that the factor is of; its pattern is that of `matrix`
 	Vector residual, direction, product, preconditioned;
@@ -313,10 +350,16 @@ void PressureSolver::recall(const PressureSolverMemory& memory)
 PressureSolution PressureSolver::solve(const PressureSystem& system, const std::vector<double>& b)
 {
 	checkNumbers(system, b);
-	LowerTriangle matrix = assemble(system);
 	PressureSolution solution;
-	solution.analysed = !self->factor.ready || !matrix.samePattern(self->matrix);
-	self->matrix = std::move(matrix);
+	if (self->layout.fits(system)) {
+		self->layout.refresh(system, self->matrix.value);
+		solution.analysed = !self->factor.ready;
+	} else {
+		LowerTriangle matrix = assemble(system);
+		self->layout.find(system, matrix);
+		solution.analysed = !self->factor.ready || !matrix.samePattern(self->matrix);
+		self->matrix = std::move(matrix);
+	}
 	const double lengthOfB = length(b);
 	if (lengthOfB == 0) {
 		solution.x.assign(b.size(), 0);

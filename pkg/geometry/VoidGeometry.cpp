@@ -38,7 +38,7 @@ namespace {
 		return { left ? box.left : box.right, bottom ? box.bottom : box.top };
 	}
 
-	double polygonArea(const std::vector<Vec2>& p)
+	double polygonArea(const CellPolygon& p)
 	{
 		double twice = 0;
 		// Relative to the first corner, so that a box far from the origin loses no digits.
@@ -88,7 +88,7 @@ namespace {
 		return half;
 	}
 
-	VoidMoments polygonMoments(const std::vector<Vec2>& p)
+	VoidMoments polygonMoments(const CellPolygon& p)
 	{
 		VoidMoments sum;
 		for (std::size_t k = 1; k + 1 < p.size(); ++k) {
@@ -148,10 +148,10 @@ double gap(const Triangulation& mesh, int a, int b, const std::vector<Disk>& gra
 	return norm(grains[b].centre - grains[a].centre) - grains[a].radius - grains[b].radius;
 }
 
-std::vector<Vec2> cellPolygon(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box)
+CellPolygon cellPolygon(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box)
 {
 	const auto& v = mesh.cells[cell].vertex;
-	std::vector<Vec2> polygon;
+	CellPolygon polygon;
 	for (int k = 0; k < 3; ++k) {
 		if (!mesh.isWall(v[k])) {
 			polygon.push_back(grains[v[k]].centre);
@@ -172,7 +172,7 @@ Vec2 cellCentre(const Triangulation& mesh, int cell, const std::vector<Disk>& gr
 	const auto polygon = cellPolygon(mesh, cell, grains, box);
 	for (Vec2 p : polygon)
 		sum += p;
-	return (1.0 / polygon.size()) * sum;
+	return (1.0 / static_cast<double>(polygon.size())) * sum;
 }
 
 double voidArea(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box)

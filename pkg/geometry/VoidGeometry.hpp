@@ -50,8 +50,21 @@ VoidMoments voidMoments(const Triangulation& mesh, int cell, const std::vector<D
 /// Centre of a cell, for reports and pictures [m]: mean of its corners (grain centres, feet, box corners).
 Vec2 cellCentre(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
 
-/// Corners of a cell, counter-clockwise [m]: three for a triangle, four for a cell at a wall.
-std::vector<Vec2> cellPolygon(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
+/// Corners of a cell, counter-clockwise [m]: three for a triangle, four for a cell at a wall. No heap: there is one for
+/// each cell in each step.
+class CellPolygon {
+public:
+	void push_back(Vec2 p) { corners[n++] = p; }
+	std::size_t size() const { return n; }
+	const Vec2& operator[](std::size_t k) const { return corners[k]; }
+	const Vec2* begin() const { return corners.data(); }
+	const Vec2* end() const { return corners.data() + n; }
+
+private:
+	std::array<Vec2, 6> corners; ///< two for each vertex that is a wall, at most
+	std::size_t n = 0;
+};
+CellPolygon cellPolygon(const Triangulation& mesh, int cell, const std::vector<Disk>& grains, const Box& box);
 
 /// Fluid forces per thickness [N/m]: the gradient of sum p V.
 struct FluidForces {

@@ -34,6 +34,7 @@ namespace {
 		        : mesh(mesh_)
 		        , entry(mesh_.cells.size())
 		{
+			b.grains.reserve(3 * entry.size());
 			for (std::size_t c = 0; c < entry.size(); ++c) {
 				const auto& v = mesh.cells[c].vertex;
 				std::array<int, 3> order { 0, 1, 2 };

@@ -19,7 +19,7 @@ namespace {
 			refuse<EntryLawError>("contact angle [rad]", contactAngle, "0 <= angle < pi/2 (water wets)");
 	}
 
-	bool inside(const std::vector<Vec2>& polygon, Vec2 p)
+	bool inside(const CellPolygon& polygon, Vec2 p)
 	{
 		for (std::size_t k = 0; k < polygon.size(); ++k)
 			if (cross(polygon[(k + 1) % polygon.size()] - polygon[k], p - polygon[k]) < 0) return false;

@@ -16,7 +16,7 @@ namespace {
 	using samples::oblong;
 	using samples::Random;
 
-	double shoelace(const std::vector<Vec2>& p)
+	double shoelace(const CellPolygon& p)
 	{
 		double twice = 0;
 		for (std::size_t k = 0; k < p.size(); ++k)
@@ -115,7 +115,7 @@ namespace {
 	void expectTiling(const Triangulation& mesh, const std::vector<Disk>& grains, const Box& box)
 	{
 		double sum = 0;
-		std::vector<std::vector<Vec2>> polygons;
+		std::vector<CellPolygon> polygons;
 		for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c) {
 			polygons.push_back(cellPolygon(mesh, c, grains, box));
 			EXPECT_EQ(polygons.back().size(), wallsOf(mesh, mesh.cells[c]) == 0 ? 3u : 4u);
