@@ -136,7 +136,7 @@ def test_installationServesOtherUsers(installed, tmp_path):
                 "run",
             ],
             ["yade", "-x", "-n", "script.py"],
-            ["python", "-c", "from capfrac.run.rigid import _kernels; print('kernels', bool(_kernels()))"],
+            ["python", "-c", "from capfrac.run.rigid_networks import kernelsOf; print('kernels', bool(kernelsOf()))"],
         ]
         outputs = []
         for words in arguments:
@@ -170,3 +170,15 @@ def test_installationMayBeMoved(installed):
         assert (done.returncode, done.stdout) == (0, "0\n"), done.stderr
     finally:
         moved.rename(installed)
+
+
+@pytest.mark.parametrize("script", ["bootstrap", "check", "demo", "laboratory", "test"])
+def test_scriptsSayWhatTheyDo(script):
+    told = subprocess.run([SCRIPTS / script, "--help"], capture_output=True, text=True, timeout=30)
+    assert told.returncode == 0 and not told.stderr
+    assert "SPDX" not in told.stdout and "#" not in told.stdout and len(told.stdout.splitlines()) > 2
+
+
+def test_unknownArgumentOfTheCheck():
+    told = subprocess.run([SCRIPTS / "check", "--fix"], capture_output=True, text=True, timeout=30)
+    assert told.returncode == 2 and told.stderr == "scripts/check: unknown argument '--fix' (allowed: --mend)\n"

@@ -17,3 +17,10 @@ def putInPlace(aside, target, write):
         raise RunFolderError(f"{target} cannot be written: {problem.strerror}") from None
     finally:
         aside.unlink(missing_ok=True)
+
+
+def refuseForeign(folder, names):
+    """Raise :class:`RunFolderError` where a ``folder`` that is to be written to holds files (``names``) of others."""
+    if names:
+        few = ", ".join(sorted(names)[:3])
+        raise RunFolderError(f"the folder {folder} holds other things ({few}); choose an empty or new one")

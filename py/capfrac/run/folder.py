@@ -26,7 +26,7 @@ from pathlib import Path
 from capfrac.errors import RunFolderError
 from capfrac.io.csvfiles import writeColumns
 from capfrac.io.namedfiles import byContent, changedFiles
-from capfrac.io.wholefiles import putInPlace
+from capfrac.io.wholefiles import putInPlace, refuseForeign
 
 STATES = ("running", "interrupted", "failed", "finished")
 #: Names of files that are being written.
@@ -120,11 +120,7 @@ class RunFolder:
             if not self.summary
             else []
         )
-        if foreign:
-            raise RunFolderError(
-                f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or"
-                " new one"
-            )
+        refuseForeign(self.path, foreign)
         if restart:
             self.clear()
         elif self.summary and (held := difference(self.summary, case, self.files)):

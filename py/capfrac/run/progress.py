@@ -32,6 +32,11 @@ class Progress:
         self.last = label
         sys.stderr.flush()
 
+    def line(self, text):
+        """Show a text that stays, on a line of its own."""
+        if not self.quiet:
+            print(text, file=sys.stderr, flush=True)
+
     def clear(self):
         """Empty the line, for what comes after it."""
         if sys.stderr.isatty() and not self.quiet:

@@ -5,6 +5,7 @@ import sys
 
 from capfrac import environment
 from capfrac.errors import CaseError
+from capfrac.run.progress import Progress
 from capfrac.sweep import figures
 from capfrac.sweep.run import asTime, runSweep
 from capfrac.sweep.sweepfile import readSweep, shippedSweeps
@@ -57,7 +58,7 @@ def main(arguments):
         for point in sweep.points[: arguments.points]:
             print(point.command(folder))
         return 0
-    report = (lambda text: None) if arguments.quiet else lambda text: print(text, file=sys.stderr, flush=True)
+    report = Progress(arguments.quiet).line
     try:
         result = runSweep(
             sweep, folder, arguments.processes, arguments.points, arguments.retry, report, threads=arguments.threads

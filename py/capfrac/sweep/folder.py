@@ -16,7 +16,8 @@ from pathlib import Path
 
 import capfrac
 from capfrac.errors import RunFolderError
-from capfrac.run.folder import difference, putInPlace, readSummary
+from capfrac.io.wholefiles import putInPlace, refuseForeign
+from capfrac.run.folder import difference, readSummary
 from capfrac.sweep import table
 
 #: Before the key of the case that failed, in the file that tells why.
@@ -34,11 +35,8 @@ class SweepFolder:
             # a sweep has begun with that is just starting, or was killed there.
             own = (".lock", ".stop", ".sweep.json", "points", "failed")
             foreign = [entry.name for entry in self.path.iterdir() if entry.name not in own]
-            if foreign and not (self.path / "sweep.json").exists():
-                raise RunFolderError(
-                    f"the folder {self.path} holds other things ({', '.join(sorted(foreign)[:3])}); choose an empty or"
-                    " new one"
-                )
+            if not (self.path / "sweep.json").exists():
+                refuseForeign(self.path, foreign)
             self._lock = open(self.path / ".lock", "w")  # open as long as this object lives
             for name in ("points", "failed"):
                 (self.path / name).mkdir(exist_ok=True)
