@@ -47,17 +47,22 @@ class PressureSupply : public GasSupply {
 public:
 	virtual ~PressureSupply() = default;
 	void postLoad(PressureSupply&) { guard(std::tie(program, reservoirVolume)); }
-	capfrac::SupplyOptions options() const override;
+	capfrac::SupplyOptions options() const override
+	{
+		capfrac::SupplyOptions options;
+		options.control = capfrac::GasControl::pressure, options.reservoirVolume = reservoirVolume;
+		return options;
+	}
 	std::vector<Real> turningPoints() const override { return program; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(PressureSupply,GasSupply,R"""(The pressure of the gas is prescribed: a ramp up to
 :yref:`GasEngine.maxPressure`, or a program of turning points.)""",
 		((std::vector<Real>,program,,Attr::triggerPostLoad,
-			"Turning points of the gas pressure [Pa]: it goes from one to the next, up or down, in steps of "
-			":yref:`GasEngine.pressureIncrement`, each when the grains are at rest. Empty: the ramp."))
+			"Turning points of the gas pressure [Pa]: it goes from one to the next, up or down, in steps "
+			"of :yref:`GasEngine.pressureIncrement`, each when the grains are at rest. Empty: the ramp."))
 		((Real,reservoirVolume,0,Attr::triggerPostLoad,
-			"Volume of gas upstream of the inlet, at the pressure of the connected gas [m³], >= 0. Under a prescribed "
-			"pressure it is only counted. Changed later, it comes or goes with its gas."))
+			"Volume of gas upstream of the inlet, at the pressure of the connected gas [m³], >= 0. Under a "
+			"prescribed pressure it is only counted. Changed later, it comes or goes with its gas."))
 		,
 		guard(std::tie(program, reservoirVolume));
 	);
@@ -69,15 +74,22 @@ class RateSupply : public GasSupply {
 public:
 	virtual ~RateSupply() = default;
 	void postLoad(RateSupply&) { guard(std::tie(rate, reservoirVolume)); }
-	capfrac::SupplyOptions options() const override;
+	capfrac::SupplyOptions options() const override
+	{
+		capfrac::SupplyOptions options;
+		options.control = capfrac::GasControl::rate, options.rate = rate,
+		options.reservoirVolume = reservoirVolume;
+		return options;
+	}
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(RateSupply,GasSupply,R"""(A mass of gas per time is prescribed; its pressure follows
-from the mass and the volume of the connected gas in the moving grains. Needs a compressible :yref:`GasLaw`.)""",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(RateSupply,GasSupply,R"""(A mass of gas per time is prescribed; its pressure
+follows from the mass and the volume of the connected gas in the moving grains. Needs a compressible
+:yref:`GasLaw`.)""",
 		((Real,rate,0,Attr::triggerPostLoad,
 			"Mass of gas supplied per time [kg/s], >= 0; 0 shuts the gas in."))
 		((Real,reservoirVolume,0,Attr::triggerPostLoad,
-			"Dead volume of the supply, upstream of the inlet, at the pressure of the connected gas [m³], >= 0. "
-			"Changed later, it comes or goes with its gas."))
+			"Dead volume of the supply, upstream of the inlet, at the pressure of the connected gas "
+			"[m³], >= 0. Changed later, it comes or goes with its gas."))
 		,
 		guard(std::tie(rate, reservoirVolume));
 	);
@@ -89,14 +101,19 @@ class ReservoirSupply : public GasSupply {
 public:
 	virtual ~ReservoirSupply() = default;
 	void postLoad(ReservoirSupply&) { guard(std::tie(volume)); }
-	capfrac::SupplyOptions options() const override;
+	capfrac::SupplyOptions options() const override
+	{
+		capfrac::SupplyOptions options;
+		options.control = capfrac::GasControl::reservoir, options.reservoirVolume = volume;
+		return options;
+	}
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ReservoirSupply,GasSupply,R"""(A volume of gas at the starting pressure, and no more:
-the pressure follows from its mass and its room, and the run is over when it is at rest. Needs a compressible
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ReservoirSupply,GasSupply,R"""(A volume of gas at the starting pressure, and no
+more: the pressure follows from its mass and its room, and the run is over when it is at rest. Needs a compressible
 :yref:`GasLaw`.)""",
 		((Real,volume,0,Attr::triggerPostLoad,
-			"Volume of gas upstream of the inlet, at the pressure of the connected gas [m³], > 0 at the start. Changed "
-			"later, it comes or goes with its gas."))
+			"Volume of gas upstream of the inlet, at the pressure of the connected gas [m³], > 0 at the "
+			"start. Changed later, it comes or goes with its gas."))
 		,
 		guard(std::tie(volume));
 	);

@@ -77,7 +77,10 @@ def _corner(run, name, capillaryNumber, viscosityRatio, tension, viscosity, step
 
 
 def startGas(tension, viscosity, gasViscosity, pressure=0.0, **attributes):
-    """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. The inlet is the floor, the outlet the top; returns it."""
+    """``ViscousInvasionEngine`` as the only engine of the scene, prepared: grains stand still. Returns it.
+
+    The inlet is the floor, the outlet the top. A ``supply`` other than a rate of 0 is given by name.
+    """
     from yade import O
     from yade.wrapper import IdealGas, RateSupply, ViscousInvasionEngine
 
