@@ -42,11 +42,24 @@ REGISTER_SERIALIZABLE(GasLaw);
 class IncompressibleGas : public GasLaw {
 public:
 	virtual ~IncompressibleGas() = default;
-	capfrac::EquationOfState equation() const override;
+	void postLoad(IncompressibleGas&) { guard(std::tie(molarMass, temperature, deviation)); }
+	capfrac::EquationOfState equation() const override
+	{
+		capfrac::EquationOfState gas;
+		gas.law = capfrac::GasLaw::incompressible;
+		gas.molarMass = molarMass, gas.temperature = temperature, gas.deviation = deviation;
+		return gas;
+	}
 	// clang-format off
-	YADE_CLASS_BASE_DOC(IncompressibleGas,GasLaw,R"""(Gas of a constant density. No pressure follows from its
-amount: it goes with a :yref:`PressureSupply` alone, and with drained water. Its mass is counted with the density of
-an :yref:`IdealGas` (methane at 293.15 K) at :yref:`GasEngine.pressureDatum`.)""");
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(IncompressibleGas,GasLaw,R"""(Gas of a constant density. No pressure follows from
+its amount: it goes with a :yref:`PressureSupply` alone, and with drained water. Its mass is counted with the density
+that an :yref:`IdealGas` of these attributes has at :yref:`GasEngine.pressureDatum`.)""",
+		((Real,molarMass,0.016043,Attr::triggerPostLoad,"Molar mass $M$ [kg/mol], > 0; methane."))
+		((Real,temperature,293.15,Attr::triggerPostLoad,"Temperature $T$, constant [K], > 0."))
+		((Real,deviation,1,Attr::triggerPostLoad,"Deviation factor $Z$ [-], > 0."))
+		,
+		guard(std::tie(molarMass, temperature, deviation));
+	);
 	// clang-format on
 };
 REGISTER_SERIALIZABLE(IncompressibleGas);
@@ -55,11 +68,16 @@ class IdealGas : public GasLaw {
 public:
 	virtual ~IdealGas() = default;
 	void postLoad(IdealGas&) { guard(std::tie(molarMass, temperature, deviation)); }
-	capfrac::EquationOfState equation() const override;
+	capfrac::EquationOfState equation() const override
+	{
+		capfrac::EquationOfState gas;
+		gas.law = capfrac::GasLaw::ideal;
+		gas.molarMass = molarMass, gas.temperature = temperature, gas.deviation = deviation;
+		return gas;
+	}
 	// clang-format off
-	YADE_CLASS_BASE_DOC_ATTRS_CTOR(IdealGas,GasLaw,R"""(Gas whose density is proportional to its absolute pressure
-p:
-$\rho = p M/(Z R T)$, with a constant deviation factor Z.)""",
+	YADE_CLASS_BASE_DOC_ATTRS_CTOR(IdealGas,GasLaw,R"""(Gas whose density is proportional to its absolute
+pressure p: $\rho = p M/(Z R T)$, with a constant deviation factor Z.)""",
 		((Real,molarMass,0.016043,Attr::triggerPostLoad,"Molar mass $M$ [kg/mol], > 0; methane."))
 		((Real,temperature,293.15,Attr::triggerPostLoad,"Temperature $T$, constant [K], > 0."))
 		((Real,deviation,1,Attr::triggerPostLoad,
@@ -76,7 +94,14 @@ class TabulatedGas : public GasLaw {
 public:
 	virtual ~TabulatedGas() = default;
 	void postLoad(TabulatedGas&) { guard(std::tie(table)); }
-	capfrac::EquationOfState equation() const override;
+	capfrac::EquationOfState equation() const override
+	{
+		capfrac::EquationOfState gas;
+		gas.law = capfrac::GasLaw::tabulated;
+		for (const auto& pair : table)
+			gas.pressures.push_back(pair[0]), gas.densities.push_back(pair[1]);
+		return gas;
+	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(TabulatedGas,GasLaw,R"""(Gas of measured densities: linear between the pairs of a
 table, in proportion to the pressure below the first; a run that comes beyond the last stops and says so.)""",

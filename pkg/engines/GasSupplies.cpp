@@ -17,25 +17,4 @@ void GasSupply::check() const
 		capfrac::requireFinite("PressureSupply.program [Pa]", p);
 }
 
-capfrac::SupplyOptions PressureSupply::options() const
-{
-	capfrac::SupplyOptions options;
-	options.control = capfrac::GasControl::pressure, options.reservoirVolume = reservoirVolume;
-	return options;
-}
-
-capfrac::SupplyOptions RateSupply::options() const
-{
-	capfrac::SupplyOptions options;
-	options.control = capfrac::GasControl::rate, options.rate = rate, options.reservoirVolume = reservoirVolume;
-	return options;
-}
-
-capfrac::SupplyOptions ReservoirSupply::options() const
-{
-	capfrac::SupplyOptions options;
-	options.control = capfrac::GasControl::reservoir, options.reservoirVolume = volume;
-	return options;
-}
-
 } // namespace yade

@@ -47,7 +47,12 @@ class PressureSupply : public GasSupply {
 public:
 	virtual ~PressureSupply() = default;
 	void postLoad(PressureSupply&) { guard(std::tie(program, reservoirVolume)); }
-	capfrac::SupplyOptions options() const override;
+	capfrac::SupplyOptions options() const override
+	{
+		capfrac::SupplyOptions options;
+		options.control = capfrac::GasControl::pressure, options.reservoirVolume = reservoirVolume;
+		return options;
+	}
 	std::vector<Real> turningPoints() const override { return program; }
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(PressureSupply,GasSupply,R"""(The pressure of the gas is prescribed: a ramp up to
@@ -69,16 +74,22 @@ class RateSupply : public GasSupply {
 public:
 	virtual ~RateSupply() = default;
 	void postLoad(RateSupply&) { guard(std::tie(rate, reservoirVolume)); }
-	capfrac::SupplyOptions options() const override;
+	capfrac::SupplyOptions options() const override
+	{
+		capfrac::SupplyOptions options;
+		options.control = capfrac::GasControl::rate, options.rate = rate,
+		options.reservoirVolume = reservoirVolume;
+		return options;
+	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(RateSupply,GasSupply,R"""(A mass of gas per time is prescribed; its pressure
-follows
-from the mass and the volume of the connected gas in the moving grains. Needs a compressible :yref:`GasLaw`.)""",
+follows from the mass and the volume of the connected gas in the moving grains. Needs a compressible
+:yref:`GasLaw`.)""",
 		((Real,rate,0,Attr::triggerPostLoad,
 			"Mass of gas supplied per time [kg/s], >= 0; 0 shuts the gas in."))
 		((Real,reservoirVolume,0,Attr::triggerPostLoad,
-			"Dead volume of the supply, upstream of the inlet, at the pressure of the connected gas [m³], "
-			">= 0. Changed later, it comes or goes with its gas."))
+			"Dead volume of the supply, upstream of the inlet, at the pressure of the connected gas "
+			"[m³], >= 0. Changed later, it comes or goes with its gas."))
 		,
 		guard(std::tie(rate, reservoirVolume));
 	);
@@ -90,11 +101,15 @@ class ReservoirSupply : public GasSupply {
 public:
 	virtual ~ReservoirSupply() = default;
 	void postLoad(ReservoirSupply&) { guard(std::tie(volume)); }
-	capfrac::SupplyOptions options() const override;
+	capfrac::SupplyOptions options() const override
+	{
+		capfrac::SupplyOptions options;
+		options.control = capfrac::GasControl::reservoir, options.reservoirVolume = volume;
+		return options;
+	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(ReservoirSupply,GasSupply,R"""(A volume of gas at the starting pressure, and no
-more:
-the pressure follows from its mass and its room, and the run is over when it is at rest. Needs a compressible
+more: the pressure follows from its mass and its room, and the run is over when it is at rest. Needs a compressible
 :yref:`GasLaw`.)""",
 		((Real,volume,0,Attr::triggerPostLoad,
 			"Volume of gas upstream of the inlet, at the pressure of the connected gas [m³], > 0 at the "

@@ -12,9 +12,10 @@ std::string nameOf(GasControl control)
 
 void checkOptions(const EquationOfState& gas)
 {
-	requirePositive("IdealGas.molarMass [kg/mol]", gas.molarMass);
-	requirePositive("IdealGas.temperature [K]", gas.temperature);
-	requirePositive("IdealGas.deviation [-]", gas.deviation);
+	const std::string owner = gas.law == GasLaw::incompressible ? "IncompressibleGas" : "IdealGas";
+	requirePositive(owner + ".molarMass [kg/mol]", gas.molarMass);
+	requirePositive(owner + ".temperature [K]", gas.temperature);
+	requirePositive(owner + ".deviation [-]", gas.deviation);
 	for (std::size_t k = 0; k < gas.pressures.size(); ++k)
 		for (const auto* column : { &gas.pressures, &gas.densities }) {
 			const std::string what = column == &gas.densities ? "density [kg/m³]" : "pressure [Pa]";

@@ -5,6 +5,7 @@
 
 from capfrac.case.fluidkeys import SOLVED
 from capfrac.case.schema import Key, notNegative, positive
+from capfrac.scene.gasobjects import SUPPLIES
 
 OUTPUT_KEYS = (
     Key(
@@ -14,7 +15,7 @@ OUTPUT_KEYS = (
         "-",
         "pressure",
         "What is prescribed: the pressure (ramp or program), the rate of gas, or a reservoir of gas.",
-        choices=("pressure", "rate", "reservoir"),
+        choices=tuple(SUPPLIES),
     ),
     Key(
         "supply",

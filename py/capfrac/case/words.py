@@ -5,7 +5,8 @@ import re
 
 from capfrac.scene.gasobjects import LAW_PARAMETERS, LAWS, SUPPLIES, SUPPLY_PARAMETERS
 
-#: Attributes of both engines of gas, and keywords for their objects (see :mod:`capfrac.scene.gasobjects`), that take the value of a key as it is: attribute -> key.
+#: Attributes of both engines of gas, and keywords for their objects (see :mod:`capfrac.scene.gasobjects`), that take
+#: the value of a key as it is: name -> key.
 GAS = {
     "interfacialTension": "gas.interfacialTension",
     "entryLaw": "gas.entryLaw",

@@ -35,8 +35,8 @@ def startInjection(
     keywords, which make them:
 
     ===================  =====================================================================================
-    ``gasLaw``           ``"incompressible"``, ``"ideal"`` or ``"tabulated"``: ``IncompressibleGas``,
-                         ``IdealGas`` (``gasMolarMass`` [kg/mol], ``gasTemperature`` [K], ``gasDeviation`` [-]),
+    ``gasLaw``           ``"incompressible"``, ``"ideal"`` or ``"tabulated"``: ``IncompressibleGas``, ``IdealGas``
+                         (``gasMolarMass`` [kg/mol], ``gasTemperature`` [K], ``gasDeviation`` [-]),
                          ``TabulatedGas`` (``gasTable``, pairs [Pa], [kg/m^3])
     ``gasControl``       ``"pressure"``, ``"rate"`` or ``"reservoir"``: ``PressureSupply`` (``pressureProgram``
                          [Pa]), ``RateSupply`` (``gasRate`` [kg/s]), ``ReservoirSupply``

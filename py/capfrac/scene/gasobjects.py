@@ -11,9 +11,9 @@ LAWS = {"incompressible": "IncompressibleGas", "ideal": "IdealGas", "tabulated":
 SUPPLIES = {"pressure": "PressureSupply", "rate": "RateSupply", "reservoir": "ReservoirSupply"}
 #: Attributes of those classes: keyword -> the attributes that it stands for, one a class.
 LAW_PARAMETERS = {
-    "gasMolarMass": ("IdealGas.molarMass",),
-    "gasTemperature": ("IdealGas.temperature",),
-    "gasDeviation": ("IdealGas.deviation",),
+    "gasMolarMass": ("IdealGas.molarMass", "IncompressibleGas.molarMass"),
+    "gasTemperature": ("IdealGas.temperature", "IncompressibleGas.temperature"),
+    "gasDeviation": ("IdealGas.deviation", "IncompressibleGas.deviation"),
     "gasTable": ("TabulatedGas.table",),
 }
 SUPPLY_PARAMETERS = {
@@ -28,19 +28,20 @@ _KINDS = {"gasLaw": ("gasLaw", LAWS, LAW_PARAMETERS), "supply": ("gasControl", S
 def gasObjects(attributes):
     """Attributes of an engine of gas (a dict), with objects in place of the keywords; others stay as they are.
 
-    ``gasLaw="ideal"`` with ``gasMolarMass``, ``gasTemperature``, ``gasDeviation``, or ``"tabulated"`` with ``gasTable``,
-    or ``"incompressible"``, is the object ``gasLaw`` of the class in :data:`LAWS`. ``gasControl="pressure"`` with
-    ``pressureProgram``, ``"rate"`` with ``gasRate``, or ``"reservoir"``, each with ``reservoirVolume``, is the object
-    ``supply`` of the class in :data:`SUPPLIES`. Raises :class:`CaseError` naming each keyword that is impossible.
+    ``gasLaw="ideal"`` or ``"incompressible"`` with ``gasMolarMass``, ``gasTemperature``, ``gasDeviation``, or
+    ``"tabulated"`` with ``gasTable``, is the object ``gasLaw`` of the class in :data:`LAWS`.
+    ``gasControl="pressure"`` with ``pressureProgram``, ``"rate"`` with ``gasRate``, or ``"reservoir"``, each with
+    ``reservoirVolume``, is the object ``supply`` of the class in :data:`SUPPLIES`. Raises :class:`CaseError` naming each keyword that is impossible.
     """
     made, problems = dict(attributes), []
     for attribute, (keyword, classes, parameters) in _KINDS.items():
-        object = made.get(attribute)
-        kind = made.pop(keyword, None) if keyword != attribute or isinstance(object, str) else None
+        byName = keyword != attribute or isinstance(made.get(attribute), str)
+        kind = made.pop(keyword, None) if byName else None
         given = {name: plain(made.pop(name)) for name in parameters if name in made}
-        if object is not None and kind is not object:
-            named = [keyword] * (kind is not None) + list(given)
-            problems += [f"{name}, allowed: without {attribute} = {object}, which has its own" for name in named]
+        if made.get(attribute) is not None:
+            named = given if kind is None else {keyword: kind, **given}
+            alone = f"allowed: only without an object {attribute}"
+            problems += [f"{name} = {shown(value)}, {alone}" for name, value in named.items()]
         elif kind is not None or given:
             kind = next(iter(classes)) if kind is None else kind
             found = list(_amiss(keyword, kind, classes, parameters, given))
@@ -60,7 +61,7 @@ def _amiss(keyword, kind, classes, parameters, given):
         owner, parameter = parameters[name][0].split(".")
         found = list(attributeAmiss(_class(owner), _class(owner)().dict(), parameter, value, calledAs=name))
         yield from found or _refusal(owner, parameter, value)
-    if kind in ("rate", "reservoir") and len(given.get("pressureProgram", ())):
+    if kind in ("rate", "reservoir") and given.get("pressureProgram"):
         yield f"pressureProgram = {shown(given['pressureProgram'])}, allowed: none with gasControl = '{kind}'"
 
 
