@@ -29,7 +29,7 @@ void ViscousInvasion::checkStart() const
 	const std::string with = " in ViscousInvasionEngine";
 	if (!gas.supply.gasCounted())
 		refuseAttribute("gasLaw", "'" + gas.supply.lawName + "'",
-		        "'ideal', 'tabulated'" + with + ": the pressure of the gas follows from its mass");
+		        compressibleGasLaws(", ") + with + ": the pressure of the gas follows from its mass");
 	if (!std::isfinite(flow.options.bulkModulus))
 		refuseAttribute(
 		        "bulkModulus [Pa]", flow.options.bulkModulus, "finite" + with + " (that of water is 2.2e9)");

@@ -37,9 +37,10 @@ void checkTogether(const SupplyOptions& o, double waterPressure, double gasPress
 {
 	if (o.pressureFollows() && !o.gasCounted())
 		refuseAttribute("gasControl", "'" + nameOf(o.control) + "'",
-		        "'pressure' with gasLaw = 'incompressible': no pressure follows from the amount of a gas that "
-		        "does not "
-		        "yield, in a rigid box it would be infinite; set gasLaw = 'ideal' or 'tabulated'");
+		        "'pressure' with gasLaw = '" + o.lawName
+		                + "': no pressure follows from the amount of a gas that does not yield, in a rigid box "
+		                  "it would be infinite; set gasLaw = "
+		                + compressibleGasLaws(" or "));
 	if (o.control == GasControl::reservoir && !(o.reservoirVolume > 0))
 		refuseAttribute("reservoirVolume [m³]", o.reservoirVolume, "> 0 with gasControl = 'reservoir'");
 	if (o.gas.law == GasLaw::tabulated && o.gas.pressures.size() < 2)
