@@ -8,7 +8,7 @@
 ///
 ///     const char* name    as engines and case files call the law
 ///     const char* doc     what it is, with its source or equation, in one line
-///     const char* range   where it holds, in one line
+///     const char* range   where it holds, in one line: the end of a sentence "... for"
 ///
 /// a type Law (the family's enum) and the functions of the law. A law is known by the number of its row. The enum names
 /// the rows that code asks for by name; a law that nothing asks for needs no entry there.
@@ -55,12 +55,12 @@ public:
 		return namesIf([](const Row&) { return true; });
 	}
 
-	/// Name and documentation of each law: what it is; where it holds.
+	/// Name and documentation of each law: what it is, "for" where it holds.
 	std::vector<std::pair<std::string, std::string>> listing() const
 	{
 		std::vector<std::pair<std::string, std::string>> all;
 		for (const auto& law : laws)
-			all.emplace_back(law.name, std::string(law.doc) + "; " + law.range);
+			all.emplace_back(law.name, std::string(law.doc) + ", for " + law.range);
 		return all;
 	}
 

@@ -97,7 +97,7 @@ TEST(LawTables, NameTheirLaws)
 	const LawTable<EntryLawRow> two { "entryLaw", { sheet, entryLaws()[EntryLaw::inscribedSphere] } };
 	EXPECT_EQ(two.names(), "'sheet', 'inscribedSphere'");
 	EXPECT_EQ(two.listing()[0].first, "sheet");
-	EXPECT_EQ(two.listing()[0].second, "a sheet in an open gap, 2 gamma cos(theta)/d; open gaps");
+	EXPECT_EQ(two.listing()[0].second, "a sheet in an open gap, 2 gamma cos(theta)/d, for open gaps");
 	EXPECT_EQ(messageOf([&] { two.fromName("purcell"); }),
 	        "entryLaw = 'purcell', allowed: 'sheet', 'inscribedSphere'");
 }
