@@ -129,7 +129,7 @@ BAD = [
     (dict(water__halvingForce=0), r"water.halvingForce = 0, allowed: a number > 0 \[N\]"),
     (
         dict(water__flow="solved"),
-        "gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved'",
+        "gas.law = 'incompressible', allowed: 'ideal', 'tabulated'.* with water.flow = 'solved'",
     ),
     (
         dict(water__flow="solved", gas__law="ideal", gas__imbibition=True),

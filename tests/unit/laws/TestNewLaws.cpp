@@ -107,7 +107,8 @@ TEST(LawTables, NumbersAreThoseOfTheEnums)
 	EXPECT_STREQ(gasLaws()[GasLaw::ideal].name, "ideal");
 	EXPECT_STREQ(gasLaws()[GasLaw::tabulated].name, "tabulated");
 	EXPECT_STREQ(gasLaws()[GasLaw::incompressible].name, "incompressible");
-	EXPECT_EQ(compressibleGasLaws(" or "), "'ideal' or 'tabulated'");
+	EXPECT_EQ(compressibleGasLaws(" or ").find("'ideal' or 'tabulated'"), 0u);
+	EXPECT_EQ(compressibleGasLaws(", ").find("incompressible"), std::string::npos);
 }
 
 TEST(NewLaws, AnEntryLaw)
