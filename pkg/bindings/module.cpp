@@ -5,6 +5,7 @@
 /// buffer protocol: that is the same for every version of NumPy, which Boost.Python's own arrays are not.
 
 #include "Buffer.hpp"
+#include "LawNames.hpp"
 #include "Models.hpp"
 
 #include "../laws/EntryPressure.hpp"
@@ -111,10 +112,10 @@ BOOST_PYTHON_MODULE(_kernels)
 	py::def("entryPressures", &entryPressures,
 	        (py::arg("gap"), py::arg("radius"), py::arg("tension"), py::arg("contactAngle") = 0.0,
 	                py::arg("law") = "inscribedSphere"),
-	        "Entry pressures of throats [Pa], a list of float, by the laws of GasInvasionEngine.\n\n"
+	        "Entry pressures of throats [Pa], a list of float, by a law of GasInvasionEngine.\n\n"
 	        "`gap` of each pair of grains [m] (float64; negative: overlap) and mean `radius` [m], `tension` [N/m], "
 	        "`contactAngle` [rad]; `law`:\n"
-	        "'inscribedSphere' (Eq. 15 of Jain & Juanes 2008, corrected) or 'mayerStowePrincen'. ValueError naming "
-	        "the throat and what is allowed.");
+	        "a name in laws()['entryLaw']. ValueError naming the throat and what is allowed.");
+	capfrac::addLaws();
 	capfrac::addModels();
 }

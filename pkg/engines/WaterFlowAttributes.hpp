@@ -12,9 +12,8 @@
 			"water is 2.2e9 Pa.")) \
 		((Real,viscosity,1e-3,Attr::triggerPostLoad,"Viscosity $\\mu$ [Pa·s], > 0.")) \
 		((std::string,conductanceLaw,"fourSpheres",Attr::triggerPostLoad, \
-			"Conductance of a throat: ``'fourSpheres'`` (Eq. 9 with the shape factor of the duct between " \
-			"four spheres), ``'constantShape'``, ``'inscribedCircle'``, ``'parallelPlates'``, " \
-			"``'lubrication'`` [-].")) \
+			"Law of the conductance of a throat, by its name [-]; " \
+			"``capfrac._kernels.laws()['conductanceLaw']`` lists them.")) \
 		((Real,conductanceFactor,1,Attr::triggerPostLoad, \
 			"Factor of all conductances [-], > 0. 0.32 reproduces the permeability of [Jain2008]_, a fit " \
 			"of one number.")) \

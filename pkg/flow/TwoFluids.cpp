@@ -56,9 +56,9 @@ void checkTwoFluids(const TwoFluids& fluids)
 		refuse("viscosity of the gas [Pa s]", fluids.gasViscosity, "finite and > 0");
 	if (!positive(fluids.datum))
 		refuse("absolute pressure at gauge pressure zero [Pa]", fluids.datum, "finite and > 0");
-	if (fluids.gas.law == GasLaw::incompressible)
-		throw FlowError("equation of state of the gas: incompressible, allowed: ideal, tabulated (its pressure "
-		                "has to follow from its mass)");
+	if (const auto& law = gasLaws()[fluids.gas.law]; !law.compressible)
+		throw FlowError("equation of state of the gas: '" + std::string(law.name)
+		        + "', allowed: " + compressibleGasLaws(", ") + " (its pressure has to follow from its mass)");
 	checkEquationOfState(fluids.gas);
 }
 

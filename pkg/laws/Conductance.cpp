@@ -66,34 +66,66 @@ namespace {
 		return distance * distance * distance / (6 * area * area);
 	}
 
-	/// C~ A^2/(2r) of Eq. 9 [m^3], or what takes its place.
-	double perLayer(ConductanceLaw law, double gap, double r)
+	/// Eq. 9 with a shape factor.
+	double duct(double scale, double gap, double r, double shape)
 	{
-		if (gap <= -2 * r) return 0;
-		if (law == ConductanceLaw::inscribedCircle)
-			return M_PI / 8 * std::pow(inscribedRadius(gap, r), 4) / (2 * r);
-		const double shape = law == ConductanceLaw::constantShape ? 0.026 : shapeFactor(gap, r);
-		return shape * std::pow(throatArea(gap, r), 2) / (2 * r);
+		return scale * (shape * std::pow(throatArea(gap, r), 2) / (2 * r));
 	}
 
-	double lubrication(double gap, double r, double length)
+	double fourSpheres(double scale, double gap, double r, const ThroatDetails&)
 	{
-		checkPositive("length of the throat [m]", length);
-		return gap <= 0 ? 0 : length * 2 / (9 * M_PI) * gap * gap * std::sqrt(gap / r);
+		return gap <= -2 * r ? 0 : duct(scale, gap, r, shapeFactor(gap, r));
+	}
+
+	double constantShape(double scale, double gap, double r, const ThroatDetails&)
+	{
+		return gap <= -2 * r ? 0 : duct(scale, gap, r, 0.026);
+	}
+
+	double inscribedCircle(double scale, double gap, double r, const ThroatDetails&)
+	{
+		if (gap <= -2 * r) return 0;
+		return scale * (M_PI / 8 * std::pow(inscribedRadius(gap, r), 4) / (2 * r));
+	}
+
+	double parallelPlates(double scale, double gap, double, const ThroatDetails& details)
+	{
+		return scale * std::pow(plateAperture(gap, details.normalForce, details.plates), 3) / 12;
+	}
+
+	double lubrication(double scale, double gap, double r, const ThroatDetails& details)
+	{
+		checkPositive("length of the throat [m]", details.length);
+		return gap <= 0 ? 0 : scale * (details.length * 2 / (9 * M_PI) * gap * gap * std::sqrt(gap / r));
 	}
 
 } // namespace
 
-ConductanceLaw conductanceLawFromName(const std::string& name)
+const LawTable<ConductanceRow>& conductanceLaws()
 {
-	if (name == "fourSpheres") return ConductanceLaw::fourSpheres;
-	if (name == "constantShape") return ConductanceLaw::constantShape;
-	if (name == "inscribedCircle") return ConductanceLaw::inscribedCircle;
-	if (name == "parallelPlates") return ConductanceLaw::parallelPlates;
-	if (name == "lubrication") return ConductanceLaw::lubrication;
-	throw std::invalid_argument("conductanceLaw = '" + name
-	        + "', allowed: 'fourSpheres', 'constantShape', 'inscribedCircle', 'parallelPlates', 'lubrication'");
+	static const LawTable<ConductanceRow> table { "conductanceLaw",
+		{
+		        { "fourSpheres",
+		                "C~ A^2 w/(2r mu), C~ of the duct between four spheres (Jain & Juanes 2008, Eq. 9)",
+		                "all gaps, closed at -2r", fourSpheres, meanRadius, false },
+		        { "constantShape", "the same with C~ = 0.026, that about contact",
+		                "gaps of some percent of the radius", constantShape, meanRadius, false },
+		        { "inscribedCircle",
+		                "a pipe as wide as the inscribed sphere, (pi/8) r_in^4 w/(2r mu) (Poiseuille)",
+		                "all gaps, closed at -2r", inscribedCircle, meanRadius, false },
+		        { "parallelPlates",
+		                "a slit that its contact's force closes, w a^3/(12 mu) (Al-Busaidi et al. 2005)",
+		                "all gaps", parallelPlates, meanRadius, true },
+		        { "lubrication",
+		                "flow in the plane between true disks, 2 L w d^(5/2)/(9 pi mu sqrt(R*)) (Gebart 1992)",
+		                "gaps well below the radius, closed in contact", lubrication, harmonicRadius, false },
+		} };
+	return table;
 }
+
+double meanRadius(double a, double b) { return 0.5 * (a + b); }
+
+double harmonicRadius(double a, double b) { return 2 * a * b / (a + b); }
 
 double throatArea(double gap, double r)
 {
@@ -121,22 +153,14 @@ double plateAperture(double gap, double normalForce, const PlateAperture& plates
 	return plates.residual * plates.halvingForce / (normalForce + plates.halvingForce);
 }
 
-double conductance(ConductanceLaw law, double gap, double r, double viscosity, double thickness,
+double conductance(const ConductanceRow& law, double gap, double r, double viscosity, double thickness,
         const ThroatDetails& details, double factor)
 {
 	checkThroat(gap, r);
 	checkPositive("viscosity [Pa s]", viscosity);
 	checkPositive("thickness [m]", thickness);
 	checkNotNegative("conductance factor [-]", factor);
-	const double scale = factor * thickness / viscosity;
-	switch (law) {
-	case ConductanceLaw::parallelPlates:
-		return scale * std::pow(plateAperture(gap, details.normalForce, details.plates), 3) / 12;
-	case ConductanceLaw::lubrication:
-		return scale * lubrication(gap, r, details.length);
-	default:
-		return scale * perLayer(law, gap, r);
-	}
+	return law.conductance(factor * thickness / viscosity, gap, r, details);
 }
 
 } // namespace capfrac

@@ -13,12 +13,15 @@
 /// between four spheres on the corners of a rectangle 2r x (2r + d), the reading of EntryPressure.hpp.
 /// d is the gap of the pair, d < 0 an overlap, e = d/(2r).
 
+#include "Laws.hpp"
+
 #include <stdexcept>
 #include <string>
 
 namespace capfrac {
 
-enum class ConductanceLaw {
+/// Laws that code asks for by name; the numbers are those of their rows in conductanceLaws().
+enum class ConductanceLaw : int {
 	fourSpheres,     ///< Eq. 9 with C~ of the duct between four spheres, shapeFactor()
 	constantShape,   ///< Eq. 9 with C~ = 0.026, the value about contact, whatever the gap
 	inscribedCircle, ///< one Poiseuille pipe per layer, as wide as the inscribed sphere: C = (pi/8) r_in^4 w/(2r
@@ -31,9 +34,6 @@ enum class ConductanceLaw {
 struct ConductanceError : std::domain_error {
 	using std::domain_error::domain_error;
 };
-
-/// The law's name, as written in ConductanceLaw, to the law. Throws std::invalid_argument.
-ConductanceLaw conductanceLawFromName(const std::string& name);
 
 /// Open area between four spheres [m^2], c = 1 + e:
 ///
@@ -72,23 +72,52 @@ double plateAperture(double gap, double normalForce, const PlateAperture& plates
 
 /// What single laws need besides the gap and the mean radius.
 struct ThroatDetails {
-	/// L_j [m] > 0, from pore to pore; lubrication only, whose resistance does not depend on it.
-	double length = 0;
-	double normalForce = 0; ///< of the contact [N] >= 0; parallelPlates only
-	PlateAperture plates;   ///< parallelPlates only
+	double length = 0;      ///< L_j [m] > 0, from pore to pore; for laws of a resistance that does not depend on it
+	double normalForce = 0; ///< of the contact [N] >= 0; for laws with `contactForce`
+	PlateAperture plates;   ///< of the law parallelPlates
 };
 
-/// Conductance C of a throat [m^4/(Pa s)] by the chosen law, times `factor` [-] >= 0.
+/// The mean radius of a pair [m], (a + b)/2.
+double meanRadius(double a, double b);
+/// The harmonic mean of the radii of a pair [m], 2 a b/(a + b): that of the parabola between two true disks.
+double harmonicRadius(double a, double b);
+
+/// A law of the conductance.
+struct ConductanceRow {
+	using Law = ConductanceLaw;
+	const char *name, *doc, *range;
+	/// C [m^4/(Pa s)] of a throat by `scale` = factor w/mu [m/(Pa s)], its gap [m] and the radius r [m] that the
+	/// law wants. Throws ConductanceError where the law does not hold.
+	double (*conductance)(double scale, double gap, double r, const ThroatDetails& details);
+	double (*radius)(double a, double b); ///< the radius that it wants, of the radii of the pair [m]
+	bool contactForce;                    ///< whether it asks for ThroatDetails::normalForce
+};
+
+/// The laws there are, one a row.
+const LawTable<ConductanceRow>& conductanceLaws();
+
+/// The law of that name. Throws std::invalid_argument with the names that there are.
+inline ConductanceLaw conductanceLawFromName(const std::string& name) { return conductanceLaws().fromName(name); }
+
+/// Conductance C of a throat [m^4/(Pa s)] by a law, times `factor` [-] >= 0.
 ///
-/// `r` [m] > 0 is the mean radius of the pair, for lubrication the harmonic mean R* = 2 r_a r_b/(r_a + r_b)
-/// (at a wall 2 r_a); `viscosity` mu [Pa s] > 0, `thickness` w [m] > 0. Lubrication, valid for d << r:
+/// `r` [m] > 0 is the radius that the law wants: the mean radius of the pair, for lubrication the harmonic mean
+/// R* = 2 r_a r_b/(r_a + r_b) (at a wall 2 r_a); `viscosity` mu [Pa s] > 0, `thickness` w [m] > 0. Lubrication, valid
+/// for d << r:
 ///
 ///     q = (2/(9 pi)) d^(5/2) w (p - p_j)/(mu sqrt(R*)),   C = L_j q/(p - p_j);   0 for d <= 0
 ///
 /// from the integral of dx/(d + x^2/R*)^3; the constant is that of Gebart (1992),
 /// doi:10.1177/002199839202600802. The other laws are those of ConductanceLaw; a closed throat
 /// has C = 0. Throws ConductanceError that names the value and what is allowed.
-double conductance(ConductanceLaw law, double gap, double r, double viscosity, double thickness,
+double conductance(const ConductanceRow& law, double gap, double r, double viscosity, double thickness,
         const ThroatDetails& details = {}, double factor = 1);
+
+/// The same by the chosen law.
+inline double conductance(ConductanceLaw law, double gap, double r, double viscosity, double thickness,
+        const ThroatDetails& details = {}, double factor = 1)
+{
+	return conductance(conductanceLaws()[law], gap, r, viscosity, thickness, details, factor);
+}
 
 } // namespace capfrac

@@ -58,11 +58,18 @@ namespace {
 
 } // namespace
 
-EntryLaw entryLawFromName(const std::string& name)
+const LawTable<EntryLawRow>& entryLaws()
 {
-	if (name == "inscribedSphere") return EntryLaw::inscribedSphere;
-	if (name == "mayerStowePrincen") return EntryLaw::mayerStowePrincen;
-	throw std::invalid_argument("entryLaw = '" + name + "', allowed: 'inscribedSphere', 'mayerStowePrincen'");
+	static const LawTable<EntryLawRow> table { "entryLaw",
+		{
+		        { "inscribedSphere",
+		                "sphere through the throat, 2 gamma cos(theta)/r_in (Jain & Juanes 2008, Eq. 15)",
+		                "open throats, contact angles below 90 degrees", inscribedSphereEntryPressure, true },
+		        { "mayerStowePrincen",
+		                "work of the meniscus against that of the surfaces behind it (Mayer & Stowe 1965)",
+		                "open throats, contact angle 0", mayerStowePrincenEntryPressure, false },
+		} };
+	return table;
 }
 
 double inscribedRadius(double gap, double r)
@@ -95,12 +102,6 @@ double mayerStowePrincenEntryPressure(double gap, double r, double tension, doub
 	const auto root = boost::math::tools::bisect([=](double rc) { return mayerStowePrincenBalance(gap, r, rc); },
 	        narrowest, widest, boost::math::tools::eps_tolerance<double>(50));
 	return tension / (0.5 * (root.first + root.second));
-}
-
-double entryPressure(EntryLaw law, double gap, double r, double tension, double contactAngle)
-{
-	return law == EntryLaw::inscribedSphere ? inscribedSphereEntryPressure(gap, r, tension, contactAngle)
-	                                        : mayerStowePrincenEntryPressure(gap, r, tension, contactAngle);
 }
 
 } // namespace capfrac

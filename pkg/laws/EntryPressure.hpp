@@ -8,23 +8,36 @@
 /// is then the opening between four spheres on the corners of a rectangle 2r x (2r + d), where d is the
 /// gap of the pair; d < 0 is an overlap.
 
+#include "Laws.hpp"
+
 #include <stdexcept>
 #include <string>
 
 namespace capfrac {
 
-enum class EntryLaw {
-	inscribedSphere,  ///< Eq. 15 of Jain & Juanes (2008), corrected: the largest sphere through the throat
-	mayerStowePrincen ///< MS-P: balance of the work of the meniscus and of the surfaces it leaves behind
+/// Laws that code asks for by name; the numbers are those of their rows in entryLaws().
+enum class EntryLaw : int { inscribedSphere, mayerStowePrincen };
+
+/// A law of the entry pressure.
+struct EntryLawRow {
+	using Law = EntryLaw;
+	const char *name, *doc, *range;
+	/// p_g - p_w [Pa] of a throat by its gap [m], mean radius [m], the interfacial tension [N/m] and the contact
+	/// angle [rad]. Throws EntryLawError where the law does not hold.
+	double (*pressure)(double gap, double r, double tension, double contactAngle);
+	bool anyAngle; ///< whether it holds for other contact angles than 0
 };
+
+/// The laws there are, one a row.
+const LawTable<EntryLawRow>& entryLaws();
 
 /// A throat for which an entry law does not hold.
 struct EntryLawError : std::domain_error {
 	using std::domain_error::domain_error;
 };
 
-/// The law's name, "inscribedSphere" or "mayerStowePrincen", to the law. Throws std::invalid_argument.
-EntryLaw entryLawFromName(const std::string& name);
+/// The law of that name. Throws std::invalid_argument with the names that there are.
+inline EntryLaw entryLawFromName(const std::string& name) { return entryLaws().fromName(name); }
 
 /// Radius of the largest sphere that passes the throat [m]:
 ///
@@ -49,7 +62,10 @@ double inscribedSphereEntryPressure(double gap, double r, double tension, double
 /// as a sheet, P_c = 2 gamma/d. 4.492 gamma/r at contact. Arguments as above; theta must be 0.
 double mayerStowePrincenEntryPressure(double gap, double r, double tension, double contactAngle);
 
-/// The entry pressure by the chosen law [Pa].
-double entryPressure(EntryLaw law, double gap, double r, double tension, double contactAngle);
+/// The entry pressure by the chosen law [Pa]. Arguments and errors as of EntryLawRow::pressure.
+inline double entryPressure(EntryLaw law, double gap, double r, double tension, double contactAngle)
+{
+	return entryLaws()[law].pressure(gap, r, tension, contactAngle);
+}
 
 } // namespace capfrac

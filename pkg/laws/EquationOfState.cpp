@@ -2,6 +2,8 @@
 #include "EquationOfState.hpp"
 #include "Refusal.hpp"
 
+#include <boost/math/tools/roots.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -48,25 +50,38 @@ namespace {
 		return y[i] + (y[i + 1] - y[i]) * (value - x[i]) / (x[i + 1] - x[i]);
 	}
 
-} // namespace
+	double idealDensity(const EquationOfState& gas, double pressure) { return perPressure(gas) * pressure; }
+	double idealDerivative(const EquationOfState& gas, double) { return perPressure(gas); }
+	double idealPressure(const EquationOfState& gas, double density) { return density / perPressure(gas); }
 
-GasLaw gasLawFromName(const std::string& name)
-{
-	if (name == "ideal") return GasLaw::ideal;
-	if (name == "tabulated") return GasLaw::tabulated;
-	if (name == "incompressible") return GasLaw::incompressible;
-	throw std::invalid_argument("gasLaw = '" + name + "', allowed: 'ideal', 'tabulated', 'incompressible'");
-}
-
-void checkEquationOfState(const EquationOfState& gas)
-{
-	if (gas.law == GasLaw::ideal) {
+	void checkIdeal(const EquationOfState& gas)
+	{
 		requirePositive("molar mass of the gas [kg/mol]", gas.molarMass);
 		requirePositive("temperature of the gas [K]", gas.temperature);
 		requirePositive("deviation factor of the gas [-]", gas.deviation);
-	} else if (gas.law == GasLaw::incompressible)
-		requirePositive("density of the gas [kg/m³]", gas.constant);
-	else {
+	}
+
+	double tabulatedDensity(const EquationOfState& gas, double pressure)
+	{
+		return lookUp(gas.pressures, gas.densities, pressure, "absolute pressure of the gas [Pa]");
+	}
+
+	double tabulatedDerivative(const EquationOfState& gas, double pressure)
+	{
+		const auto& x = gas.pressures;
+		const auto& y = gas.densities;
+		if (pressure < x.front()) return y.front() / x.front();
+		const auto i = pieceOf(x, pressure);
+		return (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+	}
+
+	double tabulatedPressure(const EquationOfState& gas, double density)
+	{
+		return lookUp(gas.densities, gas.pressures, density, "density of the gas [kg/m³]");
+	}
+
+	void checkTable(const EquationOfState& gas)
+	{
 		if (gas.pressures.size() < 2 || gas.densities.size() != gas.pressures.size())
 			throw GasLawError("table of the gas: " + std::to_string(gas.pressures.size())
 			        + " pressures and " + std::to_string(gas.densities.size())
@@ -74,35 +89,94 @@ void checkEquationOfState(const EquationOfState& gas)
 		checkColumn("pressure in the table of the gas [Pa]", gas.pressures);
 		checkColumn("density in the table of the gas [kg/m³]", gas.densities);
 	}
+
+	double constantDensity(const EquationOfState& gas, double) { return gas.constant; }
+	double noDerivative(const EquationOfState&, double) { return 0; }
+	void checkConstant(const EquationOfState& gas) { requirePositive("density of the gas [kg/m³]", gas.constant); }
+
+	void checkPressure(const GasLawRow& law, double pressure)
+	{
+		const char* what = "absolute pressure of the gas [Pa]";
+		requirePositive(what, pressure);
+		if (pressure > law.highest) refuse<GasLawError>(what, pressure, "up to " + std::to_string(law.highest));
+	}
+
+	/// The slope between two neighbours of a pressure, inside of the law's range. A step of the cube root of
+	/// round-off makes the error of the difference as large as that of the curvature.
+	double differenceQuotient(const GasLawRow& law, const EquationOfState& gas, double pressure)
+	{
+		const double step = 6e-6 * pressure;
+		const double low = pressure - step, high = std::min(pressure + step, law.highest);
+		return (law.density(gas, high) - law.density(gas, low)) / (high - low);
+	}
+
+	/// The pressure between 0 and the law's highest at which it has a density, by TOMS 748 from the thin gas'
+	/// guess.
+	double rootOfDensity(const GasLawRow& law, const EquationOfState& gas, double density)
+	{
+		const auto excess = [&](double p) { return law.density(gas, p) - density; };
+		double high = std::min(1e5, law.highest);
+		while (excess(high) < 0) {
+			if (!(high < std::min(law.highest, 1e300)))
+				refuse<GasLawError>("density of the gas [kg/m³]", density,
+				        "up to " + std::to_string(law.density(gas, high)));
+			high = std::min(2 * high, law.highest);
+		}
+		double low = 0.5 * high;
+		while (excess(low) > 0)
+			high = low, low *= 0.5;
+		boost::uintmax_t most = 200;
+		const auto root = boost::math::tools::toms748_solve(
+		        excess, low, high, boost::math::tools::eps_tolerance<double>(50), most);
+		return 0.5 * (root.first + root.second);
+	}
+
+} // namespace
+
+const LawTable<GasLawRow>& gasLaws()
+{
+	static const LawTable<GasLawRow> table { "gasLaw",
+		{
+		        { "ideal", "rho = p M/(Z R T) with a constant Z", "pressures about which Z was taken",
+		                idealDensity, idealDerivative, idealPressure, checkIdeal },
+		        { "tabulated", "linear between given pairs of pressure and density",
+		                "pressures up to the last pair, below the first as a thin gas", tabulatedDensity,
+		                tabulatedDerivative, tabulatedPressure, checkTable },
+		        { "incompressible", "a constant density",
+		                "pressures that are prescribed, not found from the mass", constantDensity, noDerivative,
+		                nullptr, checkConstant, false },
+		} };
+	return table;
 }
 
-double gasDensity(const EquationOfState& gas, double pressure)
+std::string compressibleGasLaws(const std::string& between)
 {
-	if (gas.law == GasLaw::incompressible) return gas.constant;
-	requirePositive("absolute pressure of the gas [Pa]", pressure);
-	if (gas.law == GasLaw::ideal) return perPressure(gas) * pressure;
-	return lookUp(gas.pressures, gas.densities, pressure, "absolute pressure of the gas [Pa]");
+	return gasLaws().namesIf([](const GasLawRow& law) { return law.compressible; }, between);
 }
 
-double gasDensityDerivative(const EquationOfState& gas, double pressure)
+void checkEquationOfState(const GasLawRow& law, const EquationOfState& gas)
 {
-	if (gas.law == GasLaw::incompressible) return 0;
-	requirePositive("absolute pressure of the gas [Pa]", pressure);
-	if (gas.law == GasLaw::ideal) return perPressure(gas);
-	const auto& x = gas.pressures;
-	const auto& y = gas.densities;
-	if (pressure < x.front()) return y.front() / x.front();
-	const auto i = pieceOf(x, pressure);
-	return (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
+	if (law.check) law.check(gas);
 }
 
-double gasPressure(const EquationOfState& gas, double density)
+double gasDensity(const GasLawRow& law, const EquationOfState& gas, double pressure)
 {
-	if (gas.law == GasLaw::incompressible)
+	if (law.compressible) checkPressure(law, pressure);
+	return law.density(gas, pressure);
+}
+
+double gasDensityDerivative(const GasLawRow& law, const EquationOfState& gas, double pressure)
+{
+	if (law.compressible) checkPressure(law, pressure);
+	return law.derivative ? law.derivative(gas, pressure) : differenceQuotient(law, gas, pressure);
+}
+
+double gasPressure(const GasLawRow& law, const EquationOfState& gas, double density)
+{
+	if (!law.compressible)
 		throw GasLawError("the pressure of an incompressible gas does not follow from its density");
 	requirePositive("density of the gas [kg/m³]", density);
-	if (gas.law == GasLaw::ideal) return density / perPressure(gas);
-	return lookUp(gas.densities, gas.pressures, density, "density of the gas [kg/m³]");
+	return law.pressure ? law.pressure(gas, density) : rootOfDensity(law, gas, density);
 }
 
 } // namespace capfrac

@@ -13,8 +13,9 @@ void checkOptions(const GasOptions& o)
 	requirePositive("interfacialTension [N/m]", o.tension);
 	if (!(o.contactAngle >= 0 && o.contactAngle < M_PI / 2))
 		refuseAttribute("contactAngle [rad]", o.contactAngle, "0 <= angle < pi/2 (water wets)");
-	if (o.law == EntryLaw::mayerStowePrincen && o.contactAngle != 0)
-		refuseAttribute("contactAngle [rad]", o.contactAngle, "0 with entryLaw = 'mayerStowePrincen'");
+	if (const auto& law = entryLaws()[o.law]; !law.anyAngle && o.contactAngle != 0)
+		refuseAttribute(
+		        "contactAngle [rad]", o.contactAngle, "0 with entryLaw = '" + std::string(law.name) + "'");
 	requirePositive("openingThreshold [-]", o.openingThreshold);
 	wallFromName("inletWall", o.inlet.wall);
 	wallsFromName("outletWall", o.outletWall);

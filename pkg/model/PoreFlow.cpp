@@ -152,14 +152,11 @@ std::optional<FlowThroat> PoreFlow::throatAt(const PoreNetwork& network, int e, 
 	ThroatDetails details;
 	details.length =
 	        std::max(norm(poreCentre[a] - poreCentre[b]), 1e-6 * (ra + rb)); // those of a nested pair may coincide
-	double r = 0.5 * (ra + rb);
-	if (options.law == ConductanceLaw::lubrication) r = 2 * ra * rb / (ra + rb);
-	if (options.law == ConductanceLaw::parallelPlates) {
-		details.plates = { options.residualAperture, options.halvingForce, 1.0 };
-		details.normalForce = grains.contactForce(edge.a, edge.b);
-	}
+	details.plates = { options.residualAperture, options.halvingForce, 1.0 };
+	const auto& law = conductanceLaws()[options.law];
+	if (law.contactForce) details.normalForce = grains.contactForce(edge.a, edge.b);
 	const double c = (wall ? 0.5 : 1.0)
-	        * conductance(options.law, gap, r, options.viscosity, network.options.thickness, details,
+	        * conductance(law, gap, law.radius(ra, rb), options.viscosity, network.options.thickness, details,
 	                options.conductanceFactor);
 	return FlowThroat { a, b, c / details.length };
 }

@@ -26,7 +26,7 @@ struct SupplyOptions {
 	double pressureDatum = 101325;    ///< absolute pressure where pressures are zero [Pa]
 
 	/// By mass: only a gas whose density follows from its pressure.
-	bool gasCounted() const { return gas.law != GasLaw::incompressible; }
+	bool gasCounted() const { return gasLaws()[gas.law].compressible; }
 	/// Whether the pressure follows from the mass of the gas.
 	bool pressureFollows() const { return control != GasControl::pressure; }
 	/// Density at a pressure above the datum [kg/m^3]. Throws std::runtime_error naming the law.

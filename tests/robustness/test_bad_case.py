@@ -75,7 +75,7 @@ BAD = [
     (dict(inlet__points=[[1e-3, 1e-3]]), "no inlet or several"),
     (dict(inlet__middle=1e-3), "no inlet or several"),
     (dict(inlet__pores=0, inlet__middle=-1e-3), r"inlet.middle = -0.001, allowed: a number >= 0 \[m\]"),
-    (dict(gas__law="cubic"), "gas.law = 'cubic', allowed: 'incompressible', 'ideal', 'tabulated'"),
+    (dict(gas__law="cubic"), "gas.law = 'cubic', allowed: 'ideal', 'tabulated', 'incompressible'"),
     (dict(gas__temperature=0), r"gas.temperature = 0, allowed: a number > 0 \[K\]"),
     (
         dict(gas__law="ideal", gas__datum=-1.0),
@@ -121,8 +121,15 @@ BAD = [
     (dict(gas__viscosity=0), "gas.viscosity = 0"),
     (dict(water__conductanceFactor=0), "water.conductanceFactor = 0"),
     (
+        dict(water__conductanceLaw="darcy"),
+        "water.conductanceLaw = 'darcy', allowed: 'fourSpheres', 'constantShape', 'inscribedCircle', 'parallelPlates', "
+        "'lubrication'",
+    ),
+    (dict(water__residualAperture=-1e-6), r"water.residualAperture = -1e-06, allowed: a number >= 0 \[m\]"),
+    (dict(water__halvingForce=0), r"water.halvingForce = 0, allowed: a number > 0 \[N\]"),
+    (
         dict(water__flow="solved"),
-        "gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved'",
+        "gas.law = 'incompressible', allowed: 'ideal', 'tabulated'.* with water.flow = 'solved'",
     ),
     (
         dict(water__flow="solved", gas__law="ideal", gas__imbibition=True),

@@ -209,6 +209,17 @@ REFUSED = [
         dict(gas__gravity=[0, -9.81]),
         "gas.gravity = .*, allowed: .* without gas.waterDensity and without gas.gasDensity",
     ),
+    (
+        dict(water__conductanceLaw="lubrication"),
+        "water.conductanceLaw = 'lubrication', allowed: 'fourSpheres' with water.flow = 'drained'; "
+        ".* only with water.flow = 'solved'",
+    ),
+    (dict(water__residualAperture=1e-6), "allowed: 0 with water.flow = 'drained'"),
+    (
+        dict(water__halvingForce=2.0, water__flow="solved", gas__law="ideal"),
+        "water.halvingForce = 2.0, allowed: 1 with water.conductanceLaw = 'fourSpheres'; "
+        ".* only with water.flow = 'solved' and with water.conductanceLaw = 'parallelPlates'",
+    ),
 ]
 #: Keys that describe, each without what uses them: ignored, with a warning.
 IGNORED = [
@@ -283,6 +294,13 @@ def test_whatDescribesNothingIsIgnoredWithAWarning(entries, message):
             water__viscosity=2e-3,
             gas__viscosity=2e-5,
             network__closedPore=0.1,
+        ),
+        dict(
+            water__flow="solved",
+            gas__law="ideal",
+            water__conductanceLaw="parallelPlates",
+            water__residualAperture=1e-6,
+            water__halvingForce=2.0,
         ),
         dict(gas__law="ideal", supply__maxMass=1.0, gas__molarMass=0.03),
         dict(gas__molarMass=0.03),

@@ -3,15 +3,17 @@
 
 import math
 import re
+import subprocess
 
 import pytest
 from yade import O
 from yade import wrapper
 from yade.wrapper import GasInvasionEngine
 
-from capfrac import casescene, injection, sediment
+from capfrac import _kernels, _laws, casescene, injection, sediment
 from capfrac.case import KEYS, resolveCase, words
 from capfrac.case.words import inCaseWords
+from capfrac.environment import pythonOf
 from capfrac.errors import CaseError, SampleError
 from capfrac.scene.gasobjects import LAW_PARAMETERS, LAWS, SUPPLIES, SUPPLY_PARAMETERS
 
@@ -197,6 +199,39 @@ def test_refusedInletLeavesInfiniteEnds(loadSample):
     gas.outletWall = "top"
     gas.prepare()
     assert gas.nCells > 0 and math.isfinite(gas.inletTo)
+
+
+# --- laws --------------------------------------------------------------------------------------------
+
+
+def test_namesOfLawsAreThoseOfTheKernels():
+    found = _kernels.laws()
+    assert found == _laws.laws() and set(found) == {"entryLaw", "gasLaw", "conductanceLaw"}
+    keys = {"entryLaw": "gas.entryLaw", "gasLaw": "gas.law", "conductanceLaw": "water.conductanceLaw"}
+    for family, path in keys.items():
+        (key,) = (key for key in KEYS if key.path == path)
+        assert key.choices == tuple(name for name, _ in found[family])
+        for name, text in found[family]:
+            assert text and "\n" not in text and f"{name}: {text}" in key.meaning
+
+
+@pytest.mark.parametrize("law", [name for name, _ in _kernels.laws()["conductanceLaw"]])
+def test_conductanceLawArrivesInTheEngine(loadSample, law):
+    loadSample()
+    plates = {"water__residualAperture": 2e-6, "water__halvingForce": 3.0} if law == "parallelPlates" else {}
+    gas = casescene.startGas(changed(water__flow="solved", gas__law="ideal", water__conductanceLaw=law, **plates))
+    assert gas.conductanceLaw == law
+    assert (gas.residualAperture, gas.halvingForce) == ((2e-6, 3.0) if plates else (0.0, 1.0))
+    sediment.advance(5)
+
+
+def test_lawsAreThereWithoutYADEAndOpenMP():
+    code = (
+        "import sys; from capfrac.case import describeKeys; assert 'parallelPlates: ' in describeKeys(); "
+        "print('yade' in sys.modules, 'libgomp' in open('/proc/self/maps').read())"
+    )
+    done = subprocess.run(pythonOf(code), capture_output=True, text=True)
+    assert done.stdout.split() == ["False", "False"], done.stderr
 
 
 # --- weights -----------------------------------------------------------------------------------------

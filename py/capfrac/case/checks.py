@@ -7,12 +7,15 @@ Each asks only for what it compares: a key that was refused by itself ends the f
 
 import math
 
+from capfrac.case.laws import names
 from capfrac.scene import samplechecks
 from capfrac.values import asFloat, isNotNegative, shown
 
 #: Largest ratio of grain radii that a case may have [-]: entry pressures and domains are meant for narrow
 #: distributions.
 MAX_SIZE_RATIO = 10
+#: Laws of a gas whose pressure follows from its amount, quoted.
+COMPRESSIBLE = tuple(f"'{name}'" for name in names("gasLaw") if name != "incompressible")
 
 
 def _radii(case):
@@ -142,7 +145,7 @@ def _control(case):
     if control != "pressure" and law == "incompressible":
         yield (
             f"supply.control = '{control}', allowed: 'pressure' with gas.law = 'incompressible', as no pressure "
-            "follows from the amount of a gas that does not yield; set gas.law = 'ideal' or 'tabulated'"
+            f"follows from the amount of a gas that does not yield; set gas.law = {' or '.join(COMPRESSIBLE)}"
         )
 
 
@@ -174,8 +177,8 @@ def _solvedWater(case):
         return
     if gas["law"] == "incompressible":
         yield (
-            "gas.law = 'incompressible', allowed: 'ideal', 'tabulated' with water.flow = 'solved', as the pressure "
-            "of the gas follows from its mass"
+            f"gas.law = 'incompressible', allowed: {', '.join(COMPRESSIBLE)} with water.flow = 'solved', as the "
+            "pressure of the gas follows from its mass"
         )
     if gas["imbibition"]:
         yield "gas.imbibition = true, allowed: false with water.flow = 'solved': gas does not recede"

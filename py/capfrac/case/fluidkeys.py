@@ -1,24 +1,19 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Keys of a case: the fluids; the sections [gas], [water]."""
 
+from capfrac.case.laws import lawKey
 from capfrac.case.schema import Key, notNegative, positive
 from capfrac.constants import ATMOSPHERE, METHANE_MOLAR_MASS, ROOM_TEMPERATURE
 
 #: Condition of what belongs to water that is solved for.
 SOLVED = "water.flow = 'solved'"
+#: Condition of what the slits of one law of the conductance have.
+PLATES = f"{SOLVED} and water.conductanceLaw = 'parallelPlates'"
 
 FLUID_KEYS = (
     positive("gas", "interfacialTension", "N/m", 0.05, "Interfacial tension gamma of gas and water."),
     Key("gas", "contactAngle", float, "degrees", 0.0, "Contact angle through the water, below 90.", low=0, high=89.9),
-    Key(
-        "gas",
-        "entryLaw",
-        str,
-        "-",
-        "inscribedSphere",
-        "Law of the entry pressure.",
-        choices=("inscribedSphere", "mayerStowePrincen"),
-    ),
+    lawKey("gas", "entryLaw", "entryLaw", "inscribedSphere", "Law of the entry pressure."),
     Key(
         "gas",
         "trapping",
@@ -28,14 +23,8 @@ FLUID_KEYS = (
         "Whether water that is cut off from the outlet stays (true) or drains by films (false); solved water stays.",
         usedWith="water.flow = 'drained'",
     ),
-    Key(
-        "gas",
-        "law",
-        str,
-        "-",
-        "incompressible",
-        "Equation of state; a rate or a reservoir needs a compressible one.",
-        choices=("incompressible", "ideal", "tabulated"),
+    lawKey(
+        "gas", "law", "gasLaw", "incompressible", "Equation of state; a rate or a reservoir needs a compressible one."
     ),
     positive(
         "gas",
@@ -130,4 +119,11 @@ FLUID_KEYS = (
     positive("water", "viscosity", "Pa s", 1e-3, "Viscosity of the water.", usedWith=SOLVED),
     positive("water", "bulkModulus", "Pa", 2.2e9, "Bulk modulus of the water.", usedWith=SOLVED),
     positive("water", "conductanceFactor", "-", 1.0, "Factor of all conductances of throats.", usedWith=SOLVED),
+    lawKey(
+        "water", "conductanceLaw", "conductanceLaw", "fourSpheres", "Law of the conductance of a throat.", needs=SOLVED
+    ),
+    notNegative(
+        "water", "residualAperture", "m", 0.0, "Aperture of the slit at a contact that bears no force.", needs=PLATES
+    ),
+    positive("water", "halvingForce", "N", 1.0, "Force of a contact that halves the aperture.", needs=PLATES),
 )

@@ -43,6 +43,9 @@ VISCOUS = {
     "bulkModulus": "water.bulkModulus",
     "gasViscosity": "gas.viscosity",
     "conductanceFactor": "water.conductanceFactor",
+    "conductanceLaw": "water.conductanceLaw",
+    "residualAperture": "water.residualAperture",
+    "halvingForce": "water.halvingForce",
     "closedPore": "network.closedPore",
 }
 #: Fields of :class:`capfrac.sediment.Sediment` that do.

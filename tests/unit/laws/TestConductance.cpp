@@ -257,9 +257,10 @@ TEST(Conductance, ChoosesTheLawByName)
 	for (int i = 0; i < 5; ++i)
 		EXPECT_EQ(conductanceLawFromName(names[i]), allLaws[i]);
 	EXPECT_THROW(conductanceLawFromName("darcy"), std::invalid_argument);
-	EXPECT_EQ(messageOf([] { conductanceLawFromName("darcy"); }),
-	        "conductanceLaw = 'darcy', allowed: 'fourSpheres', 'constantShape', 'inscribedCircle', "
-	        "'parallelPlates', 'lubrication'");
+	EXPECT_EQ(messageOf([] { conductanceLawFromName("darcy"); })
+	                  .find("conductanceLaw = 'darcy', allowed: 'fourSpheres', 'constantShape', 'inscribedCircle', "
+	                        "'parallelPlates', 'lubrication'"),
+	        0u);
 }
 
 } // namespace capfrac
