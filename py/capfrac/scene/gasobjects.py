@@ -31,8 +31,8 @@ def gasObjects(attributes):
     ``gasLaw="ideal"`` or ``"incompressible"`` with ``gasMolarMass``, ``gasTemperature``, ``gasDeviation``, or
     ``"tabulated"`` with ``gasTable``, is the object ``gasLaw`` of the class in :data:`LAWS`.
     ``gasControl="pressure"`` with ``pressureProgram``, ``"rate"`` with ``gasRate``, or ``"reservoir"``, each with
-    ``reservoirVolume``, is the object ``supply`` of the class in :data:`SUPPLIES`. Raises :class:`CaseError` naming each keyword that is
-    impossible.
+    ``reservoirVolume``, is the object ``supply`` of the class in :data:`SUPPLIES`.
+    Raises :class:`CaseError` naming each keyword that is impossible.
     """
     made, problems = dict(attributes), []
     for attribute, (keyword, classes, parameters) in _KINDS.items():
