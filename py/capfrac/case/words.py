@@ -84,7 +84,12 @@ KEYS = {**GAS, **DRAINED, **VISCOUS, **SEDIMENT, **_OTHERS}
 
 #: Classes of the parameter objects, as the keys call them, and their attributes.
 OBJECTS = {
-    **{path: KEYS[name] for name, paths in {**LAW_PARAMETERS, **SUPPLY_PARAMETERS}.items() for path in paths},
+    **{
+        path: KEYS[name]
+        for name, paths in {**LAW_PARAMETERS, **SUPPLY_PARAMETERS}.items()
+        for path in paths
+        if name in KEYS  # a keyword may have no key yet
+    },
     **{kind: f"'{name}'" for name, kind in {**LAWS, **SUPPLIES}.items()},
 }
 
