@@ -6,6 +6,7 @@ from yade import O
 from yade.wrapper import ForceResetter
 
 from capfrac.scene.gasengine import engineOfGas
+from capfrac.scene.gasobjects import gasObjects
 
 
 @pytest.fixture
@@ -17,7 +18,7 @@ def standing(settledScene):
     def make(waterFlow="drained", **attributes):
         walls = settledScene()
         # Without contacts there is no rest in the sense of small forces: let every level end by itself.
-        gas = engineOfGas(waterFlow)(minLevelSteps=1, maxLevelSteps=1, checkInvariants=True, **attributes)
+        gas = engineOfGas(waterFlow)(minLevelSteps=1, maxLevelSteps=1, checkInvariants=True, **gasObjects(attributes))
         gas.inletFrom, gas.inletTo = gas.inletStretch(2, 0.5 * (walls[0] + walls[1]))
         O.engines = [ForceResetter(), gas]
         return O.engines[1]
@@ -43,7 +44,7 @@ def chain(handScene):
             gravity=(0, -gravity),
             poreMode="triangle",
             checkInvariants=True,
-            **attributes,
+            **gasObjects(attributes),
         )
         O.engines = [ForceResetter(), gas]
         return O.engines[1]

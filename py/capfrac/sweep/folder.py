@@ -38,16 +38,11 @@ class SweepFolder:
             if not (self.path / "sweep.json").exists():
                 refuseForeign(self.path, foreign)
             self._lock = open(self.path / ".lock", "w")  # open as long as this object lives
+            self._takeLock()  # first: what is made then is seen by others as the folder of a sweep at work
             for name in ("points", "failed"):
                 (self.path / name).mkdir(exist_ok=True)
         except OSError as problem:
             raise RunFolderError(f"the folder {self.path} cannot be written: {problem.strerror}") from None
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            raise RunFolderError(
-                f"another sweep is at work in {self.path}; wait for it, or choose another folder"
-            ) from None
         self._rows = {}
         others = [(point, held) for point in sweep.points if (held := self.difference(point))]
         if others:
@@ -63,6 +58,14 @@ class SweepFolder:
             "capfrac": capfrac.__version__,
         }
         self._whole("sweep.json", lambda path: path.write_text(json.dumps(head, indent=2) + "\n", encoding="utf-8"))
+
+    def _takeLock(self):
+        try:
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise RunFolderError(
+                f"another sweep is at work in {self.path}; wait for it, or choose another folder"
+            ) from None
 
     def close(self):
         """Let others at the folder."""
