@@ -20,9 +20,9 @@ STEPS, ROUNDS = 300, 5
 
 
 def timeSteps():
-    start = time.perf_counter()
+    start = time.process_time()
     sediment.advance(STEPS)
-    return (time.perf_counter() - start) / STEPS
+    return (time.process_time() - start) / STEPS
 
 
 def makeSample(grainCount):
@@ -36,7 +36,10 @@ def makeSample(grainCount):
 
 
 def compare(engine, name):
-    """Times of dry and coupled steps [s], and the median of their ratios; the engine is switched off and on in turn."""
+    """Processor times of dry and coupled steps [s], and the median of their ratios.
+
+    The engine is switched off and on in turn.
+    """
     dry, coupled = [], []
     for _ in range(ROUNDS):
         engine.dead = True
@@ -59,7 +62,7 @@ def measure(grainCount):
     for name, more in (
         ("GasInvasionEngine", {}),
         (
-            "GasInvasionEngine, solved water",
+            "ViscousInvasionEngine",
             dict(waterFlow="solved", gasLaw="ideal", poreMode="triangle", closedPore=0.03),
         ),
     ):
