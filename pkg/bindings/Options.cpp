@@ -58,12 +58,7 @@ void OptionTable::read(const py::dict& given) const
 
 void addNetwork(OptionTable& table, NetworkOptions& o)
 {
-	table.add("poreMode", [&o](const py::object& name) {
-		const auto mode = textOf(name);
-		if (mode != "domain" && mode != "triangle")
-			refuseAttribute("poreMode", "'" + mode + "'", "'domain', 'triangle'");
-		o.mode = mode == "domain" ? PoreMode::domain : PoreMode::triangle;
-	});
+	table.add("poreMode", [&o](const py::object& name) { o.mode = poreModeFromName(textOf(name)); });
 	table.add("mergeTolerance", o.mergeTolerance);
 	table.add("mergeHysteresis", o.mergeHysteresis);
 	table.add("remeshDisplacement", o.remeshDisplacement);

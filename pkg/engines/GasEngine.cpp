@@ -91,7 +91,6 @@ void GasEngine::started()
 {
 	census->start(*scene, *reader);
 	noteBreakthrough();
-	show();
 	warnOfSupply();
 }
 

@@ -18,7 +18,7 @@ public:
 	boost::python::dict pyEvents();
 	boost::python::dict pyImbibitionEvents();
 	boost::python::dict pyLevels();
-	virtual boost::python::dict pyGasLedger();
+	boost::python::dict pyGasLedger();
 	boost::python::dict pyHistory();
 	Real pyRisePerPeriod();
 	boost::python::tuple pyInletStretch(int nPores, Real centre);
@@ -152,6 +152,13 @@ supply, its inlet, and the pressure levels. Use one of these two; this class by 
 		,
 		.add_property("programPosition",+[](GasEngine& e) { return e.levelsNow().programPosition; },
 			"Turning points of the program that were reached [-].")
+		.add_property("reservoirMass",+[](GasEngine& e) { return e.invasion().books.reservoirMass; },
+			"Mass of gas in the reservoir [kg].")
+		.add_property("initialGasMass",+[](GasEngine& e) { return e.invasion().books.initialMass; },
+			"Mass of gas in the reservoir and the pores of the inlet when counting began [kg]; 0 "
+			"for the incompressible law.")
+		.add_property("injectedGasMass",+[](GasEngine& e) { return e.invasion().books.injectedMass; },
+			"That and all that was supplied since, less what went back [kg].")
 		.add_property("inletPores",+[](GasEngine& e) { return e.invasion().inletPores; },
 			"Number of domains that the inlet fills at the start [-].")
 		.add_property("inletWidth",+[](GasEngine& e) { return e.invasion().inletWidth; },

@@ -11,7 +11,6 @@ public:
 	virtual ~GasInvasionEngine() = default;
 	void postLoad(GasInvasionEngine&) { followAs<GasInvasionEngine>(); }
 	capfrac::GasModel& invasion() override { return *drained; }
-	boost::python::dict pyGasLedger() override;
 
 protected:
 	void tell() override;
@@ -55,13 +54,6 @@ apart is decided by the contacts alone.)""",
 		,
 		guardAttributes();
 		,
-		.add_property("reservoirMass",+[](GasInvasionEngine& e) { return e.drained->books.reservoirMass; },
-			"Mass of gas in the reservoir [kg].")
-		.add_property("initialGasMass",+[](GasInvasionEngine& e) { return e.drained->books.initialMass; },
-			"Mass of gas in the reservoir and the pores of the inlet when counting began [kg]; 0 "
-			"for the incompressible law.")
-		.add_property("injectedGasMass",+[](GasInvasionEngine& e) { return e.drained->books.injectedMass; },
-			"That and all that was supplied since, less what went back [kg].")
 		.add_property("nTrappedWater",+[](GasInvasionEngine& e) { return e.drained->nTrappedWater; },
 			"Domains of water that are cut off from the outlet [-] (with trapping).")
 		.add_property("nDetachedGas",+[](GasInvasionEngine& e) { return e.drained->nDetachedGas; },

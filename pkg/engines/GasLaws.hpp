@@ -45,10 +45,7 @@ public:
 	void postLoad(IncompressibleGas&) { guard(std::tie(molarMass, temperature, deviation)); }
 	capfrac::EquationOfState equation() const override
 	{
-		capfrac::EquationOfState gas;
-		gas.law = capfrac::GasLaw::incompressible;
-		gas.molarMass = molarMass, gas.temperature = temperature, gas.deviation = deviation;
-		return gas;
+		return { capfrac::GasLaw::incompressible, molarMass, temperature, deviation, 1, {}, {} };
 	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(IncompressibleGas,GasLaw,R"""(Gas of a constant density. No pressure follows from
@@ -70,10 +67,7 @@ public:
 	void postLoad(IdealGas&) { guard(std::tie(molarMass, temperature, deviation)); }
 	capfrac::EquationOfState equation() const override
 	{
-		capfrac::EquationOfState gas;
-		gas.law = capfrac::GasLaw::ideal;
-		gas.molarMass = molarMass, gas.temperature = temperature, gas.deviation = deviation;
-		return gas;
+		return { capfrac::GasLaw::ideal, molarMass, temperature, deviation, 1, {}, {} };
 	}
 	// clang-format off
 	YADE_CLASS_BASE_DOC_ATTRS_CTOR(IdealGas,GasLaw,R"""(Gas whose density is proportional to its absolute

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 /// What the engines of gas tell Python.
 
-#include "GasInvasionEngine.hpp"
 #include "../bindings/Tables.hpp"
-#include "ViscousInvasionEngine.hpp"
+#include "GasEngine.hpp"
 
 #include <core/Omega.hpp>
 
@@ -39,29 +38,22 @@ namespace {
 py::dict GasEngine::pyEvents() { return capfrac::eventTable(invasion().events); }
 py::dict GasEngine::pyLevels() { return capfrac::levelTable(invasion().levels.closed); }
 py::dict GasEngine::pyHistory() { return capfrac::historyTable(invasion().history.rows); }
-py::dict GasEngine::pyGasLedger() { return ledger(0, 0, 0, 0, 0); }
 py::dict GasEngine::pyImbibitionEvents() { return capfrac::returnTable(invasion().returns); }
 
-py::dict GasInvasionEngine::pyGasLedger()
+py::dict GasEngine::pyGasLedger()
 {
 	pyPrepare();
-	const auto& books = drained->books;
-	const auto clusters = drained->clusters(*network);
-	if (drained->gas.supply.gasCounted() && books.started)
-		return ledger(books.initialMass, books.injectedMass, thickness * network->contents.totalGasMass(),
-		        thickness * sumOfCutOff(clusters, network->contents.gasMass), books.reservoirMass);
+	const auto& gas = invasion();
+	const auto& books = gas.books;
+	const auto& contents = network->contents;
+	const auto clusters = gas.clusters(*network);
+	if (!gas.drained() || (gas.gas.supply.gasCounted() && books.started))
+		return ledger(books.initialMass, books.injectedMass, thickness * contents.totalGasMass(),
+		        thickness * sumOfCutOff(clusters, contents.gasMass), books.reservoirMass);
 	network->syncContents();
-	const Real density = capfrac::datumDensity(drained->gas.supply);
-	return ledger(0, density * network->books.gasIn, density * thickness * network->contents.totalGas(),
-	        density * thickness * sumOfCutOff(clusters, network->contents.gas), 0);
-}
-
-py::dict ViscousInvasionEngine::pyGasLedger()
-{
-	pyPrepare();
-	const auto clusters = capfrac::gasClusters(network->mesh, network->contents);
-	return ledger(viscous->initialMass, viscous->injectedMassSoFar, thickness * network->contents.totalGasMass(),
-	        thickness * sumOfCutOff(clusters, network->contents.gasMass), viscous->reservoirMass);
+	const Real density = capfrac::datumDensity(gas.gas.supply);
+	return ledger(0, density * network->books.gasIn, density * thickness * contents.totalGas(),
+	        density * thickness * sumOfCutOff(clusters, contents.gas), 0);
 }
 
 Real GasEngine::pyRisePerPeriod()

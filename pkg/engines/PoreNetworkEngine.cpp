@@ -30,12 +30,10 @@ void PoreNetworkEngine::action()
 capfrac::NetworkOptions PoreNetworkEngine::networkOptions() const
 {
 	using namespace capfrac;
-	if (poreMode != "domain" && poreMode != "triangle")
-		refuseAttribute("poreMode", "'" + poreMode + "'", "'domain', 'triangle'");
+	const auto mode = poreModeFromName(poreMode);
 	if (!(maxSizeRatio >= 1)) refuseAttribute("maxSizeRatio [-]", maxSizeRatio, ">= 1");
 	requireFinite("waterPressure [Pa]", waterPressure);
-	return { poreMode == "domain" ? PoreMode::domain : PoreMode::triangle, mergeTolerance, mergeHysteresis,
-		remeshDisplacement, localFlips, thickness };
+	return { mode, mergeTolerance, mergeHysteresis, remeshDisplacement, localFlips, thickness };
 }
 
 void PoreNetworkEngine::guardAttributes()
@@ -73,12 +71,12 @@ void PoreNetworkEngine::build()
 	*network = std::move(made);
 	try {
 		naming(*reader, [&] { model().start(*network, now()); });
+		show();
 		started();
 	} catch (...) {
 		network->mesh = {}; // the network is not there until its fluids are
 		throw;
 	}
-	show();
 }
 
 capfrac::PoreNetwork PoreNetworkEngine::freshNetwork(SceneReader& fresh) const

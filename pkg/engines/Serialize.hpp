@@ -179,21 +179,20 @@ template <class Archive> void serialize(Archive& archive, GasModel& it, unsigned
 	CAPFRAC_SAVE(gasPressure), CAPFRAC_SAVE(gasSaturation), CAPFRAC_SAVE(waterExcess), CAPFRAC_SAVE(lastEvent);
 	CAPFRAC_SAVE(inletPores), CAPFRAC_SAVE(inletWidth), CAPFRAC_SAVE(levels), CAPFRAC_SAVE(events);
 	CAPFRAC_SAVE(returns), CAPFRAC_SAVE(history), CAPFRAC_SAVE(breakthrough), CAPFRAC_SAVE(startGrains);
-	CAPFRAC_SAVE(startBox);
+	CAPFRAC_SAVE(startBox), CAPFRAC_SAVE(books);
 }
 
 template <class Archive> void serialize(Archive& archive, DrainedInvasion& it, unsigned version)
 {
 	serialize(archive, static_cast<GasModel&>(it), version);
-	CAPFRAC_SAVE(books), CAPFRAC_SAVE(snapped), CAPFRAC_SAVE(nTrappedWater), CAPFRAC_SAVE(nDetachedGas);
+	CAPFRAC_SAVE(snapped), CAPFRAC_SAVE(nTrappedWater), CAPFRAC_SAVE(nDetachedGas);
 }
 
 template <class Archive> void serialize(Archive& archive, ViscousInvasion& it, unsigned version)
 {
 	serialize(archive, static_cast<GasModel&>(it), version);
 	CAPFRAC_SAVE(flow), CAPFRAC_SAVE(flowRecord), CAPFRAC_SAVE(cellLoad), CAPFRAC_SAVE(cellState);
-	CAPFRAC_SAVE(cellHeld), CAPFRAC_SAVE(edgeAdvancing), CAPFRAC_SAVE(reservoirMass), CAPFRAC_SAVE(reservoirFilled);
-	CAPFRAC_SAVE(initialMass), CAPFRAC_SAVE(injectedMassSoFar);
+	CAPFRAC_SAVE(cellHeld), CAPFRAC_SAVE(edgeAdvancing);
 }
 
 } // namespace capfrac

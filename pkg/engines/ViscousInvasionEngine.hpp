@@ -13,7 +13,6 @@ public:
 	void postLoad(ViscousInvasionEngine&) { followAs<ViscousInvasionEngine>(); }
 	capfrac::GasModel& invasion() override { return *viscous; }
 	boost::python::dict pyPores();
-	boost::python::dict pyGasLedger() override;
 
 protected:
 	void tell() override;
@@ -47,13 +46,6 @@ as :yref:`GasInvasionEngine`, whose water is drained: it is the limit of slow in
 		,
 		guardAttributes();
 		,
-		.add_property("reservoirMass",+[](ViscousInvasionEngine& e) { return e.viscous->reservoirMass; },
-			"Mass of gas in the reservoir [kg].")
-		.add_property("initialGasMass",+[](ViscousInvasionEngine& e) { return e.viscous->initialMass; },
-			"Mass of gas in the reservoir and the pores of the inlet when counting began [kg]; 0 "
-			"for the incompressible law.")
-		.add_property("injectedGasMass",+[](ViscousInvasionEngine& e) { return e.viscous->injectedMassSoFar; },
-			"That and all that was supplied since, less what went back [kg].")
 		.add_property("waterExcess",+[](ViscousInvasionEngine& e) { return e.viscous->waterExcess; },
 			"How far the water that is not cut off is from rest [Pa], a "
 			"mean over its volume. A level lasts until that is at most an increment, or a "

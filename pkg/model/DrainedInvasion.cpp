@@ -188,22 +188,6 @@ double DrainedInvasion::saturation(const PoreNetwork& network) const
 	return held / all;
 }
 
-double DrainedInvasion::connectedGas(const PoreNetwork& network) const
-{
-	const auto hanging = clusters(network);
-	const auto voids = network.voids();
-	double volume = 0;
-	for (std::size_t c = 0; c < voids.size(); ++c)
-		if (hanging.ofCell[c] == 0)
-			volume += network.options.thickness * (voids[c] - network.contents.water[c]);
-	return volume;
-}
-
-double DrainedInvasion::injectedMass(const PoreNetwork& network) const
-{
-	return gas.supply.gasCounted() ? books.injectedMass : datumDensity(gas.supply) * network.books.gasIn;
-}
-
 double DrainedInvasion::nextEntryPressure(const PoreNetwork& network) const
 {
 	return capfrac::nextEntryPressure(drainageNetwork(network));

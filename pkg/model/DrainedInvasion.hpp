@@ -10,7 +10,6 @@
 #include "GasModel.hpp"
 
 #include "../invasion/Imbibition.hpp"
-#include "../supply/GasBooks.hpp"
 
 namespace capfrac {
 
@@ -26,7 +25,6 @@ void checkOptions(const DrainedOptions& options, const GasOptions& gas);
 class DrainedInvasion : public GasModel {
 public:
 	DrainedOptions options;
-	GasBooks books;
 	std::vector<std::uint8_t> snapped; ///< edges that are snapped off; empty until the first that is
 	int nTrappedWater = 0;             ///< domains of water that are cut off from the outlet, as last found
 	int nDetachedGas = 0;              ///< domains of gas that are cut off from the inlet, as last found
@@ -39,10 +37,9 @@ public:
 	std::vector<double> cellPressures(const PoreNetwork& network) const override;
 	FluidForces loads(const PoreNetwork& network) const override;
 	double saturation(const PoreNetwork& network) const override;
-	double connectedGas(const PoreNetwork& network) const override;
-	double injectedMass(const PoreNetwork& network) const override;
 	double nextEntryPressure(const PoreNetwork& network) const override;
-	GasClusters clusters(const PoreNetwork& network) const
+	/// Not through throats that are snapped off.
+	GasClusters clusters(const PoreNetwork& network) const override
 	{
 		return gasClusters(network.mesh, network.contents, snapped);
 	}

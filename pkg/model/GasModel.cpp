@@ -90,6 +90,22 @@ void GasModel::fillWithGas(PoreNetwork& network, int domain)
 	}
 }
 
+double GasModel::connectedGas(const PoreNetwork& network) const
+{
+	const auto hanging = clusters(network);
+	const auto voids = network.voids();
+	double volume = 0;
+	for (std::size_t c = 0; c < voids.size(); ++c)
+		if (hanging.ofCell[c] == 0)
+			volume += network.options.thickness * (voids[c] - network.contents.water[c]);
+	return volume;
+}
+
+double GasModel::injectedMass(const PoreNetwork& network) const
+{
+	return gas.supply.gasCounted() ? books.injectedMass : datumDensity(gas.supply) * network.books.gasIn;
+}
+
 double GasModel::entryPressureOf(const PoreNetwork& network, int e) const
 {
 	const auto [gap, r] = network.throatShape(e);

@@ -9,6 +9,7 @@
 #include "Inlet.hpp"
 
 #include "../laws/EntryPressure.hpp"
+#include "../supply/GasBooks.hpp"
 #include "../supply/Levels.hpp"
 
 namespace capfrac {
@@ -43,6 +44,7 @@ public:
 	int lastEvent = -1;       ///< iteration of the last invasion; -1: none
 	int inletPores = 0;       ///< domains that the inlet filled at the start
 	double inletWidth = 0;    ///< of wall that they cover [m]
+	GasBooks books;           ///< of its mass
 	Levels levels;
 	std::vector<InvasionEvent> events;
 	std::vector<ReturnEvent> returns;
@@ -55,10 +57,15 @@ public:
 	double entryPressureOf(const PoreNetwork& network, int edge) const override;
 	/// Share of the void that holds gas now [-].
 	virtual double saturation(const PoreNetwork& network) const = 0;
+	/// Gas that hangs together.
+	virtual GasClusters clusters(const PoreNetwork& network) const
+	{
+		return gasClusters(network.mesh, network.contents);
+	}
 	/// Volume of the gas in the sample that hangs on the inlet [m^3].
-	virtual double connectedGas(const PoreNetwork& network) const = 0;
+	double connectedGas(const PoreNetwork& network) const;
 	/// Mass injected so far [kg]; of an incompressible gas, at the density of the ideal one at the datum.
-	virtual double injectedMass(const PoreNetwork& network) const = 0;
+	double injectedMass(const PoreNetwork& network) const;
 	/// The lowest entry pressure that the injected gas meets now [Pa], at the datum; infinity where there is none.
 	virtual double nextEntryPressure(const PoreNetwork& network) const = 0;
 

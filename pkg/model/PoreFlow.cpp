@@ -54,8 +54,10 @@ void checkOptions(const FlowOptions& o)
 		requireFinite("pointFluxes", dot(p.point, p.point) + p.value * p.value);
 }
 
-void PoreFlow::start(const PoreNetwork& network, double pressure)
+void PoreFlow::start(PoreNetwork& network, double pressure)
 {
+	for (auto& water : network.contents.water)
+		water = massAt(pressure, water, options.bulkModulus);
 	referencePressure = pressure;
 	referenceRadii.clear();
 	for (const auto& grain : network.grains)

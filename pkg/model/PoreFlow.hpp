@@ -66,8 +66,9 @@ public:
 	std::vector<double> referenceRadii; ///< at the start [m]
 	double referencePressure = 0;       ///< at the start [Pa]
 
-	/// Radii under the pressure at the start are those of Eq. 10 of Jain & Juanes (2008).
-	void start(const PoreNetwork& network, double pressure);
+	/// Fills the cells with water at a pressure [Pa], under which the grains have the radii of Eq. 10 of Jain &
+	/// Juanes (2008) that they have.
+	void start(PoreNetwork& network, double pressure);
 	/// Pores, volumes, centroids and gradients as they are now.
 	void describe(const PoreNetwork& network);
 	/// The throat at an edge between two pores; nothing where there is none.
@@ -78,6 +79,10 @@ public:
 	void addBoundaries(const PoreNetwork& network, FlowNetwork& flow) const;
 	/// How grains and walls give way, with the pores' gradient; `weight`: forces of the fluid's weight [N/m].
 	Skeleton skeleton(const PoreNetwork& network, const GrainAnswer& grains, const FluidForces& weight) const;
+	/// Forces [N/m] of pressures per cell [Pa], by the very gradient that a step foresees volumes with: what the
+	/// grains gain in work the fluid loses; and those of the fluid's `weight`, of no size where it has none.
+	FluidForces loads(
+	        const PoreNetwork& network, const std::vector<double>& pressures, const FluidForces& weight) const;
 	GrainCompression compression(const PoreNetwork& network) const;
 	/// Refuses growths of the radii [m] for which Eq. 10 means nothing. Throws std::runtime_error naming the grain.
 	void checkGrowth(const PoreNetwork& network, const std::vector<double>& growth) const;

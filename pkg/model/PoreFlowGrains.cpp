@@ -20,6 +20,14 @@ Skeleton PoreFlow::skeleton(const PoreNetwork& network, const GrainAnswer& grain
 	return skeleton;
 }
 
+FluidForces PoreFlow::loads(
+        const PoreNetwork& network, const std::vector<double>& pressures, const FluidForces& weight) const
+{
+	auto forces = fluidForces(gradients, pressures, network.grains.size());
+	if (!weight.grains.empty()) forces += weight;
+	return forces;
+}
+
 GrainCompression PoreFlow::compression(const PoreNetwork& network) const
 {
 	GrainCompression compression;

@@ -19,11 +19,9 @@ void checkWeight(Vec2 gravity, bool weightless)
 void SinglePhase::start(PoreNetwork& network, const Moment&)
 {
 	checkWeight(flow.options.gravity, flow.options.density == 0);
-	for (auto& water : network.contents.water)
-		water = massAt(initialPressure, water, flow.options.bulkModulus);
+	flow.start(network, initialPressure);
 	network.books.initialWater = network.options.thickness * network.contents.totalWater();
 	cellPressure.clear();
-	flow.start(network, initialPressure);
 }
 
 void SinglePhase::describe(const PoreNetwork& network)
@@ -75,9 +73,7 @@ std::vector<double> SinglePhase::cellPressures(const PoreNetwork& network) const
 
 FluidForces SinglePhase::loads(const PoreNetwork& network) const
 {
-	auto forces = fluidForces(flow.gradients, cellPressures(network), network.grains.size());
-	if (!weightForce.grains.empty()) forces += weightForce;
-	return forces;
+	return flow.loads(network, cellPressures(network), weightForce);
 }
 
 FluidForces SinglePhase::weightOfFluid(const PoreNetwork& network) const

@@ -32,7 +32,6 @@ public:
 	void advance(PoreNetwork& network, const GrainAnswer& grains, const Moment& now) override;
 	void beforeReport(PoreNetwork& network) override { describe(network); }
 	std::vector<double> cellPressures(const PoreNetwork& network) const override;
-	/// By the very gradient that the step foresaw the volumes with: what the grains gain in work the fluid loses.
 	FluidForces loads(const PoreNetwork& network) const override;
 	/// The longest step of the explicit scheme now [s], Eqs. 12-14.
 	double timeStepLimit(PoreNetwork& network, const GrainAnswer& grains);

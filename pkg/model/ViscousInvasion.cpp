@@ -66,14 +66,12 @@ void ViscousInvasion::startFluids(PoreNetwork& network)
 {
 	const double thickness = network.options.thickness, density = gas.supply.densityAt(0);
 	auto& contents = network.contents;
-	auto& books = network.books;
-	for (auto& water : contents.water)
-		water = massAt(gas.waterPressure, water, flow.options.bulkModulus);
+	auto& volumes = network.books;
 	flow.start(network, gas.waterPressure);
 	cellState.assign(network.mesh.cells.size(), gas.waterPressure);
 	const auto weights = columns(network);
 	if (weights.heavy()) letWaterRest(network);
-	books.waterIn = books.gasIn = 0, books.initialWater = thickness * contents.totalWater();
+	volumes.waterIn = volumes.gasIn = 0, volumes.initialWater = thickness * contents.totalWater();
 	const auto voids = network.voids();
 	const auto both = fluids();
 	for (std::size_t c = 0; c < voids.size(); ++c) {
@@ -82,11 +80,12 @@ void ViscousInvasion::startFluids(PoreNetwork& network)
 		cellState[c] = gasPressure + weights.headsAt(network.voidCentre(cell)).gas;
 		contents.gas[c] = voids[c] * gasRatio(both, cellState[c]);
 		contents.gasMass[c] = density * contents.gas[c];
-		books.gasIn += thickness * contents.gas[c];
+		volumes.gasIn += thickness * contents.gas[c];
 	}
-	reservoirFilled = gas.supply.reservoirVolume;
-	reservoirMass = gas.supply.densityAt(gasPressure) * reservoirSize(network);
-	initialMass = injectedMassSoFar = thickness * contents.totalGasMass() + reservoirMass;
+	books.started = true; // from here on by mass
+	books.reservoirFilled = gas.supply.reservoirVolume;
+	books.reservoirMass = gas.supply.densityAt(gasPressure) * reservoirSize(network);
+	books.initialMass = books.injectedMass = books.massIn(network);
 	cellLoad = cellState;
 	cellHeld.assign(network.mesh.cells.size(), 0);
 	edgeAdvancing.assign(network.mesh.edges.size(), 0);
@@ -110,14 +109,6 @@ void ViscousInvasion::letWaterRest(PoreNetwork& network)
 		        dot(weights.weight(false), moments.first - moments.area * toDatum) / flow.options.bulkModulus;
 		cellState[c] = gas.waterPressure + weights.headsAt(network.voidCentre(cell)).water;
 	}
-}
-
-/// A reservoir of another size comes, or goes, with its gas at the gas pressure.
-void ViscousInvasion::attachReservoir()
-{
-	const double mass = gas.supply.densityAt(gasPressure) * (gas.supply.reservoirVolume - reservoirFilled);
-	reservoirMass += mass, initialMass += mass, injectedMassSoFar += mass;
-	reservoirFilled = gas.supply.reservoirVolume;
 }
 
 void ViscousInvasion::describe(PoreNetwork& network)
@@ -150,7 +141,7 @@ void ViscousInvasion::advance(PoreNetwork& network, const GrainAnswer& grains, c
 {
 	if (levels.start < 0) levels.start = static_cast<int>(now.iteration);
 	checkStart();
-	if (gas.supply.reservoirVolume != reservoirFilled) attachReservoir();
+	if (gas.supply.reservoirVolume != books.reservoirFilled) books.attachReservoir(gas.supply, gasPressure);
 	describe(network);
 	joinPhases(network);
 	auto pores = twoFluidNetwork(network, grains);
@@ -159,8 +150,8 @@ void ViscousInvasion::advance(PoreNetwork& network, const GrainAnswer& grains, c
 	const double density = gas.supply.densityAt(0);
 	network.books.waterIn += done.water.in - done.water.out;
 	network.books.gasIn += done.gas.in - done.gas.out - (pores.pores.back().gas - before);
-	reservoirMass = density * pores.pores.back().gas;
-	injectedMassSoFar += density * (done.gas.in - done.gas.out);
+	books.reservoirMass = density * pores.pores.back().gas;
+	books.injectedMass += density * (done.gas.in - done.gas.out);
 	gasPressure = pores.pores.back().pressure;
 	waterExcess = capfrac::waterExcess(pores);
 	growth = done.growth;
@@ -242,9 +233,7 @@ std::vector<double> ViscousInvasion::cellPressures(const PoreNetwork& network) c
 
 FluidForces ViscousInvasion::loads(const PoreNetwork& network) const
 {
-	auto forces = fluidForces(flow.gradients, cellPressures(network), network.grains.size());
-	if (!weightForce.grains.empty()) forces += weightForce;
-	return forces;
+	return flow.loads(network, cellPressures(network), weightForce);
 }
 
 /// As SinglePhase has it, with a weight per pore: where both fluids are in one, by their shares.
@@ -272,22 +261,11 @@ FluidForces ViscousInvasion::weightOfFluids(const PoreNetwork& network) const
 	return forces;
 }
 
-double ViscousInvasion::connectedGas(const PoreNetwork& network) const
-{
-	const auto hanging = gasClusters(network.mesh, network.contents);
-	const auto voids = network.voids();
-	double volume = 0;
-	for (std::size_t c = 0; c < voids.size(); ++c)
-		if (hanging.ofCell[c] == 0)
-			volume += network.options.thickness * (voids[c] - network.contents.water[c]);
-	return volume;
-}
-
 double ViscousInvasion::nextEntryPressure(const PoreNetwork& network) const
 {
 	const auto weights = columns(network);
 	double lowest = std::numeric_limits<double>::infinity();
-	const auto hanging = gasClusters(network.mesh, network.contents);
+	const auto hanging = clusters(network);
 	for (std::size_t e = 0; e < network.mesh.edges.size(); ++e) {
 		const auto& edge = network.mesh.edges[e];
 		if (edge.left < 0 || edge.right < 0 || network.isGas(edge.left) == network.isGas(edge.right)) continue;

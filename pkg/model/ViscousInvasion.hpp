@@ -33,10 +33,6 @@ public:
 	std::vector<double> cellState;           ///< pressure of a cell at the end of the last step [Pa]
 	std::vector<double> cellHeld;            ///< capillary pressure of gas in a cell of water [Pa]
 	std::vector<std::uint8_t> edgeAdvancing; ///< whether gas has passed the edge and fills the pore behind it
-	double reservoirMass = 0;                ///< gas in the reservoir [kg]
-	double reservoirFilled = 0;              ///< volume of the reservoir that this is the gas of [m^3]
-	double initialMass = 0;                  ///< of the gas at the start [kg]
-	double injectedMassSoFar = 0;            ///< that and what was supplied since [kg]
 
 	bool drained() const override { return false; }
 	void fields(CarryOver& carry) override;
@@ -45,8 +41,6 @@ public:
 	std::vector<double> cellPressures(const PoreNetwork& network) const override;
 	FluidForces loads(const PoreNetwork& network) const override;
 	double saturation(const PoreNetwork&) const override { return gasSaturation; } // of the last step
-	double connectedGas(const PoreNetwork& network) const override;
-	double injectedMass(const PoreNetwork&) const override { return injectedMassSoFar; }
 	double nextEntryPressure(const PoreNetwork& network) const override;
 
 protected:
@@ -56,7 +50,6 @@ protected:
 private:
 	TwoFluids fluids() const;
 	double reservoirSize(const PoreNetwork& network) const;
-	void attachReservoir();
 	void letWaterRest(PoreNetwork& network);
 	void describe(PoreNetwork& network);
 	FluidForces weightOfFluids(const PoreNetwork& network) const;

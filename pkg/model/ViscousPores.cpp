@@ -78,13 +78,13 @@ TwoFluidNetwork ViscousInvasion::twoFluidNetwork(PoreNetwork& network, const Gra
 	FlowNetwork boundaries;
 	boundaries.pores.resize(flow.nPores);
 	flow.addBoundaries(network, boundaries);
-	auto& books = network.books;
+	auto& volumes = network.books;
 	for (int p = 0; p < flow.nPores; ++p) {
 		auto& pore = pores.pores[p];
 		// Cells of a torn sample may have a negative void, and share of what is there: sums that cancel leave
 		// round-off.
 		for (auto [amount, book] :
-		        { std::pair(&pore.gas, &books.gasIn), std::pair(&pore.water, &books.waterIn) })
+		        { std::pair(&pore.gas, &volumes.gasIn), std::pair(&pore.water, &volumes.waterIn) })
 			if (*amount < 0 && *amount > -roundOff * pore.volume) *book -= std::exchange(*amount, 0);
 		pore.bodyPressure = bodies[p];
 		if (pore.isGas) continue;
@@ -124,7 +124,7 @@ void ViscousInvasion::addReservoir(const PoreNetwork& network, TwoFluidNetwork& 
 	reservoir.isGas = true;
 	reservoir.volume = reservoirSize(network);
 	reservoir.pressure = gasPressure;
-	reservoir.gas = reservoirMass / density;
+	reservoir.gas = books.reservoirMass / density;
 	if (gas.supply.control == GasControl::pressure) reservoir.fixedPressure = gasPressure;
 	if (gas.supply.control == GasControl::rate) reservoir.source = gas.supply.rate / density;
 	pores.pores.push_back(reservoir);

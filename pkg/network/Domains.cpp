@@ -2,9 +2,18 @@
 #include "Domains.hpp"
 #include "UnionFind.hpp"
 
+#include "../laws/Options.hpp"
+
 #include <numeric>
 
 namespace capfrac {
+
+PoreMode poreModeFromName(const std::string& name)
+{
+	if (name == "domain") return PoreMode::domain;
+	if (name == "triangle") return PoreMode::triangle;
+	refuseAttribute("poreMode", "'" + name + "'", "'domain', 'triangle'");
+}
 
 bool updateOpenEdges(std::vector<std::uint8_t>& open, const std::vector<double>& gap, double openGap, double closeGap)
 {

@@ -7,9 +7,14 @@
 
 #include "Contents.hpp"
 
+#include <string>
+
 namespace capfrac {
 
 enum class PoreMode { domain, triangle };
+
+/// 'domain' or 'triangle'; throws std::invalid_argument naming `poreMode` otherwise.
+PoreMode poreModeFromName(const std::string& name);
 
 struct Domains {
 	int count = 0;
