@@ -5,6 +5,14 @@ from capfrac.case.schema import REQUIRED, Key, notNegative, positive
 from capfrac.scene.samplechecks import LEAST_GRAINS
 from capfrac.values import LARGEST_SEED, MOST_GRAINS
 
+#: Of the grains by themselves, in cases and in the laboratory.
+MECHANICS = (
+    positive("grains", "density", "kg/m^3", 2650.0, "Density of the grains."),
+    positive("grains", "normalStiffness", "N/m", 1e7, "Normal stiffness k_n of a contact."),
+    Key("grains", "shearStiffness", float, "N/m", None, "Shear stiffness k_s of a contact; default k_n.", low=0),
+    notNegative("grains", "friction", "-", 0.5, "Coefficient of friction between grains."),
+)
+
 SAMPLE_KEYS = (
     Key("case", "title", str, "-", "", "Title of pictures and reports."),
     Key("case", "description", str, "-", "", "What the case is, where it comes from."),
@@ -63,10 +71,7 @@ SAMPLE_KEYS = (
         "",
         "Instead of generated grains: a CSV file with columns x, y, r [m], beside the case file.",
     ),
-    positive("grains", "density", "kg/m^3", 2650.0, "Density of the grains."),
-    positive("grains", "normalStiffness", "N/m", 1e7, "Normal stiffness k_n of a contact."),
-    Key("grains", "shearStiffness", float, "N/m", None, "Shear stiffness k_s of a contact; default k_n.", low=0),
-    notNegative("grains", "friction", "-", 0.5, "Coefficient of friction between grains."),
+    *MECHANICS,
     notNegative("grains", "wallFriction", "-", 0.0, "Coefficient of friction between grains and walls."),
     positive(
         "grains", "aspect", "-", 1.0, "Height over width of the settled sample, about.", usedWith="no grains.packing"

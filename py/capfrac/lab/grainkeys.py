@@ -3,6 +3,7 @@
 
 from dataclasses import replace
 
+from capfrac.case.samplekeys import MECHANICS
 from capfrac.case.schema import Key, notNegative, positive
 from capfrac.values import LARGEST_SEED, MOST_GRAINS
 
@@ -52,10 +53,7 @@ GRAINS = (
         low=0,
         high=LARGEST_SEED,
     ),
-    positive("grains", "density", "kg/m^3", 2650.0, "Density of the grains."),
-    positive("grains", "normalStiffness", "N/m", 1e7, "Normal stiffness k_n of a contact."),
-    Key("grains", "shearStiffness", float, "N/m", None, "Shear stiffness k_s of a contact; default k_n.", low=0),
-    notNegative("grains", "friction", "-", 0.5, "Coefficient of friction between grains."),
+    *MECHANICS,
     positive("grains", "aspect", "-", 1.0, "Height over width of the settled sample, about."),
 )
 

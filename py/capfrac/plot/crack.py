@@ -134,22 +134,3 @@ def colourBar(figure, axes, colours):
     bar.ax.xaxis.set_major_formatter(lambda value, _: f"{value:g}")
     bar.set_label("aperture of cracked throats / mean radius", fontsize=7.5)
     bar.ax.tick_params(labelsize=7)
-
-
-def putKeys(figure, keys, columns):
-    """Put ``keys`` in so many ``columns`` at the lower left of the figure."""
-    width, height = figure.get_size_inches()
-    figure.legend(
-        handles=keys,
-        ncol=columns,
-        loc="lower left",
-        bbox_to_anchor=(0.15 / width, 0.05 / height),
-        fontsize=7,
-        frameon=False,
-        borderaxespad=0,
-        borderpad=0,
-        handlelength=1.6,
-        columnspacing=1.2,
-        handletextpad=0.5,
-        labelspacing=0.35,
-    )

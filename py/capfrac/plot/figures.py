@@ -23,7 +23,7 @@ from capfrac.plot.painter import (
     fitSample,
     gasDots,
 )
-from capfrac.plot.sheet import newFigure, saveFigure, titleOf
+from capfrac.plot.sheet import newFigure, putKeys, saveFigure, titleOf
 from capfrac.units import prefix, quantity
 
 __all__ = [
@@ -109,20 +109,7 @@ def _drawPanels(snapshots, path, titles, width, forces, bonds, dots, forceScale)
             _drawSample(axes, snapshot, 72 * inches[k], forces, bonds, dots, scales[k])
             drawScaleBar(axes, snapshot, inches[k])
             figure.text(middle / total[0], 1 - 0.5 * head / total[1], title, ha="center", va="center", fontsize=10)
-        figure.legend(
-            handles=handles,
-            ncol=columns,
-            loc="lower left",
-            bbox_to_anchor=(rim / total[0], 0.05 / total[1]),
-            fontsize=7,
-            frameon=False,
-            borderaxespad=0,
-            borderpad=0,
-            handlelength=1.5,
-            columnspacing=1.3,
-            handletextpad=0.5,
-            labelspacing=0.35,
-        )
+        putKeys(figure, handles, columns, rim, 1.5, 1.3)
         saveFigure(figure, path)
 
 

@@ -5,10 +5,10 @@ import math
 
 import numpy as np
 
-from capfrac.plot.crack import branchText, colourBar, drawCrack, hasCracks, keysOf, putKeys
+from capfrac.plot.crack import branchText, colourBar, drawCrack, hasCracks, keysOf
 from capfrac.plot.painter import drawScaleBar, fitSample
 from capfrac.plot.rose import drawRose
-from capfrac.plot.sheet import newFigure, saveFigure, titleOf
+from capfrac.plot.sheet import newFigure, putKeys, saveFigure, titleOf
 from capfrac.plot.stress import drawStress
 from capfrac.results.fracture import orientation
 from capfrac.units import prefix, quantity

@@ -30,6 +30,28 @@ def putLegend(axes, *others):
         axes.legend(handles=keys, fontsize=7, framealpha=0.8, edgecolor="none", borderpad=0.2, loc="best")
 
 
+def putKeys(figure, keys, columns, left=0.15, handleLength=1.6, columnSpacing=1.2):
+    """Put ``keys`` in so many ``columns`` at the lower left of the figure, ``left`` [inches] off its edge.
+
+    ``handleLength`` and ``columnSpacing`` are matplotlib's, in sizes of the font.
+    """
+    width, height = figure.get_size_inches()
+    figure.legend(
+        handles=keys,
+        ncol=columns,
+        loc="lower left",
+        bbox_to_anchor=(left / width, 0.05 / height),
+        fontsize=7,
+        frameon=False,
+        borderaxespad=0,
+        borderpad=0,
+        handlelength=handleLength,
+        columnspacing=columnSpacing,
+        handletextpad=0.5,
+        labelspacing=0.35,
+    )
+
+
 def titleOf(title, width, size=10):
     """A title for a figure ``width`` inches wide: its text, in as many lines as needed (up to 3), and the height
     [inches].
