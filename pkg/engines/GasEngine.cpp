@@ -62,7 +62,9 @@ void GasEngine::checkAttributes() const
 {
 	PoreNetworkEngine::checkAttributes();
 	capfrac::requireFinite("gasPressure [Pa]", gasPressure);
-	capfrac::checkOptions(gasOptions());
+	const auto options = gasOptions();
+	capfrac::checkOptions(options);
+	checkGas(options);
 }
 
 void GasEngine::tell()

@@ -41,7 +41,9 @@ protected:
 	void started() override;
 	void finishStep() override;
 	DemGrains grains() override { return { *scene, *this, *reader, &*census }; }
-	virtual capfrac::GasOptions gasOptions() const;
+	capfrac::GasOptions gasOptions() const;
+	/// Checks what a kind of invasion asks of the gas, beyond what both do.
+	virtual void checkGas(const capfrac::GasOptions&) const {}
 	virtual int stepsBetweenInvasions() const { return 0; }
 	auto gasAttributes()
 	{

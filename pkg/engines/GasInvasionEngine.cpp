@@ -6,10 +6,9 @@ namespace yade {
 YADE_PLUGIN((GasInvasionEngine));
 CREATE_LOGGER(GasInvasionEngine);
 
-void GasInvasionEngine::checkAttributes() const
+void GasInvasionEngine::checkGas(const capfrac::GasOptions& gas) const
 {
-	GasEngine::checkAttributes();
-	capfrac::checkOptions({ trapping, imbibition, snapOff }, gasOptions());
+	capfrac::checkOptions({ trapping, imbibition, snapOff }, gas);
 }
 
 void GasInvasionEngine::guardAttributes()

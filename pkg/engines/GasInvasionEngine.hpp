@@ -14,7 +14,7 @@ public:
 
 protected:
 	void tell() override;
-	void checkAttributes() const override;
+	void checkGas(const capfrac::GasOptions& gas) const override;
 	void guardAttributes() override;
 	int stepsBetweenInvasions() const override { return invasionInterval; }
 

@@ -21,9 +21,11 @@ template <class Value>
 
 // Comparisons are written so that NaN is refused.
 
+inline bool isPositive(double value) { return value > 0 && value <= 1e300; }
+
 inline void requirePositive(const std::string& name, double value)
 {
-	if (!(value > 0) || value > 1e300) refuseAttribute(name, value, "finite and > 0");
+	if (!isPositive(value)) refuseAttribute(name, value, "finite and > 0");
 }
 
 inline void requireNotNegative(const std::string& name, double value)

@@ -18,11 +18,14 @@ void checkOptions(const EquationOfState& gas)
 	requirePositive(owner + ".deviation [-]", gas.deviation);
 	for (std::size_t k = 0; k < gas.pressures.size(); ++k)
 		for (const auto* column : { &gas.pressures, &gas.densities }) {
+			const double value = (*column)[k];
+			const bool ascends = k == 0 || value > (*column)[k - 1];
+			if (isPositive(value) && ascends) continue;
+			// Names are put together only when something is wrong: this runs every step.
 			const std::string what = column == &gas.densities ? "density [kg/m³]" : "pressure [Pa]";
 			const std::string name = what + " of pair " + std::to_string(k) + " of TabulatedGas.table";
-			requirePositive(name, (*column)[k]);
-			if (k > 0 && !((*column)[k] > (*column)[k - 1]))
-				refuseAttribute(name, (*column)[k], "ascending values");
+			requirePositive(name, value);
+			refuseAttribute(name, value, "ascending values");
 		}
 }
 
